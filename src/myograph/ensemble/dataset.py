@@ -1,0 +1,98 @@
+"""The labelled dataset of one muscle: an `xarray.Dataset`, on disk as Zarr.
+
+Dimensions and variables (units in the attributes, from `myograph.fields`):
+
+    activation          (cases, muscles)        in the order of `myograph.MUSCLES`, which is the coordinate `muscles`
+    elbow_angle         (cases,)                rad
+    design              (cases,)                'factorial' or 'off_grid'
+    reference_position  (nodes, axes)           material coordinates X, mm
+    position            (cases, nodes, axes)    mm
+    cauchy_stress       (cases, nodes, voigt)   MPa
+    von_mises           (cases, nodes)          MPa
+    fibre_stretch       (cases, nodes)
+    pressure            (cases, nodes)          MPa
+    surface_quads       (facets, corners)       node indices of the skin's quadrilaterals, outward normal
+
+Attributes: `muscle`, `simulator`, `preset`, `myograph_version`, `arm_checksum`, `schema`.
+"""
+
+import shutil
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from jaxtyping import Float, Int
+
+from myograph.case import MUSCLES, Solution
+from myograph.errors import InputError
+from myograph.fields import AXES, FIELDS, VOIGT
+
+SCHEMA = 1
+NODE_FIELDS = ("position", "cauchy_stress", "von_mises", "fibre_stretch", "pressure")
+_COMPONENT_DIMENSION = {AXES: ("axes",), VOIGT: ("voigt",), (): ()}
+
+
+def dataset_from_solutions(
+    solutions: Sequence[Solution],
+    design: Sequence[str],
+    muscle: str,
+    reference_position: Float[np.ndarray, "nodes 3"],
+    surface_quads: Int[np.ndarray, "facets 4"],
+    attributes: Mapping[str, str],
+) -> xr.Dataset:
+    """Gather the fields of one muscle from many solutions.
+
+    Parameters
+    ----------
+    design
+        One word per solution: where its case came from ('factorial', 'off_grid').
+    attributes
+        Provenance: simulator, preset, arm_checksum, myograph_version.
+    """
+    data: dict[str, xr.Variable] = {
+        "activation": _variable("activation", ("cases", "muscles"), np.array([s.case.activations for s in solutions])),
+        "elbow_angle": _variable("elbow_angle", ("cases",), np.array([s.elbow_angle for s in solutions])),
+        "design": xr.Variable(("cases",), np.array(design, dtype="<U16")),
+        "reference_position": _variable("reference_position", ("nodes", "axes"), reference_position),
+        "surface_quads": xr.Variable(("facets", "corners"), surface_quads),
+    }
+    for name in NODE_FIELDS:
+        dimensions = ("cases", "nodes", *_COMPONENT_DIMENSION[FIELDS[name].components])
+        data[name] = _variable(name, dimensions, np.stack([s.fields[muscle][name] for s in solutions]))
+    coordinates = {"muscles": list(MUSCLES), "axes": list(AXES), "voigt": list(VOIGT)}
+    return xr.Dataset(data, coords=coordinates, attrs={"muscle": muscle, "schema": SCHEMA, **attributes})
+
+
+def _variable(name: str, dimensions: tuple[str, ...], values: np.ndarray) -> xr.Variable:
+    return xr.Variable(dimensions, values, attrs={"units": FIELDS[name].unit, "long_name": FIELDS[name].meaning})
+
+
+def save_dataset(dataset: xr.Dataset, path: Path) -> None:
+    """Write the dataset as a Zarr folder: beside its place first, then renamed, so that it is never half there."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        aside = Path(tempfile.mkdtemp(prefix=f".{path.name}-", dir=path.parent))
+    except OSError as problem:
+        raise InputError(f"{path}: cannot be written: {problem.strerror}") from None
+    try:
+        dataset.to_zarr(aside / "new", mode="w", consolidated=False)
+        if path.exists():
+            path.rename(aside / "old")
+        (aside / "new").rename(path)
+    finally:
+        shutil.rmtree(aside, ignore_errors=True)
+
+
+def load_dataset(path: Path) -> xr.Dataset:
+    """Read a dataset; raise InputError where there is none, or one of another schema."""
+    if not path.is_dir():
+        raise InputError(f"{path}: expected a dataset folder, found none")
+    try:
+        dataset = xr.open_zarr(path, consolidated=False).load()
+    except Exception as problem:
+        raise InputError(f"{path}: not a readable dataset: {problem}") from None
+    if dataset.attrs.get("schema") != SCHEMA:
+        raise InputError(f"{path}: expected dataset schema {SCHEMA}, got {dataset.attrs.get('schema')!r}; simulate anew")
+    return dataset
