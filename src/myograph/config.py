@@ -1,7 +1,7 @@
 """TOML files become frozen pydantic models; an unknown key is an error that names the near one.
 
-Nothing is executed or unpickled; a file that is missing, is not TOML, or does not fit its model is an InputError with the
-file's name, the key, what was expected and what was found.
+Nothing is executed or unpickled; a file that is missing, is not TOML, or does not fit its model is an InputError with
+the file's name, the key, what was expected and what was found.
 """
 
 import difflib

@@ -38,8 +38,7 @@ def dataset_from_solutions(
     solutions: Sequence[Solution],
     design: Sequence[str],
     muscle: str,
-    reference_position: Float[np.ndarray, "nodes 3"],
-    surface_quads: Int[np.ndarray, "facets 4"],
+    body: tuple[Float[np.ndarray, "nodes 3"], Int[np.ndarray, "facets 4"]],
     attributes: Mapping[str, str],
 ) -> xr.Dataset:
     """Gather the fields of one muscle from many solutions.
@@ -48,9 +47,12 @@ def dataset_from_solutions(
     ----------
     design
         One word per solution: where its case came from ('factorial', 'off_grid').
+    body
+        Nodes in the reference body [mm], and the quadrilaterals of the skin.
     attributes
         Provenance: simulator, preset, arm_checksum, myograph_version.
     """
+    reference_position, surface_quads = body
     data: dict[str, xr.Variable] = {
         "activation": _variable("activation", ("cases", "muscles"), np.array([s.case.activations for s in solutions])),
         "elbow_angle": _variable("elbow_angle", ("cases",), np.array([s.elbow_angle for s in solutions])),
@@ -94,5 +96,7 @@ def load_dataset(path: Path) -> xr.Dataset:
     except Exception as problem:
         raise InputError(f"{path}: not a readable dataset: {problem}") from None
     if dataset.attrs.get("schema") != SCHEMA:
-        raise InputError(f"{path}: expected dataset schema {SCHEMA}, got {dataset.attrs.get('schema')!r}; simulate anew")
+        raise InputError(
+            f"{path}: expected dataset schema {SCHEMA}, got {dataset.attrs.get('schema')!r}; simulate anew"
+        )
     return dataset

@@ -1,1 +1,1 @@
-"""Room."""
+"""Smooth functions through tabulated values; knows numbers, no muscles."""

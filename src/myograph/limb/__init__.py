@@ -1,1 +1,1 @@
-"""Room."""
+"""Joint level: tables of muscles, the balance of moments, equilibrium of the elbow."""

@@ -1,1 +1,1 @@
-"""Room."""
+"""Bodies become meshes: structured hexahedra for parametric muscles."""

@@ -1,0 +1,26 @@
+"""Arms from TOML: the built-in one, or the user's own."""
+
+import hashlib
+import json
+from importlib.resources import as_file, files
+from pathlib import Path
+
+from myograph.anatomy.model import Arm
+from myograph.config import read_toml
+
+
+def built_in_arm() -> Arm:
+    """The left arm that comes with the package."""
+    with as_file(files("myograph.anatomy") / "left_arm.toml") as path:
+        return load_arm(path)
+
+
+def load_arm(path: Path) -> Arm:
+    """Arm from a TOML file; raise InputError naming file and key where it does not fit."""
+    return read_toml(path, Arm)
+
+
+def arm_checksum(arm: Arm) -> str:
+    """SHA-256 of everything the arm says, whatever the layout of its file."""
+    text = json.dumps(arm.model_dump(mode="json"), sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()

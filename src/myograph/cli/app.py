@@ -1,0 +1,63 @@
+"""The command `myograph`: its verbs, and what becomes of errors.
+
+Exit codes: 0 done, 2 the caller's mistake, 3 a method failed, 130 interrupted. An error is one line on standard
+error, or one line per wrong key of a file; never a traceback for what people can mend.
+"""
+
+import sys
+from typing import Annotated
+
+import typer
+
+import myograph
+from myograph.cli.arm import arm
+from myograph.cli.demo import demo
+from myograph.cli.solve import solve
+from myograph.errors import MyographError
+
+app = typer.Typer(
+    name="myograph",
+    help="Muscle activations in, deformed muscles out.",
+    add_completion=False,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+app.command()(demo)
+app.command()(arm)
+app.command()(solve)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"myograph {myograph.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    """Muscle activations in, deformed muscles out."""
+
+
+def main() -> None:
+    """Run the command line and leave with its exit code."""
+    try:
+        code = app(standalone_mode=False)
+    except MyographError as error:
+        _say(str(error))
+        sys.exit(error.exit_code)
+    except typer.TyperException as error:
+        _say(f"{error.format_message()}; see 'myograph --help'")
+        sys.exit(2)
+    except (KeyboardInterrupt, typer.Abort):
+        _say("interrupted; nothing is half-written")
+        sys.exit(130)
+    sys.exit(code if isinstance(code, int) else 0)
+
+
+def _say(message: str) -> None:
+    typer.echo(f"myograph: {message}", err=True)

@@ -1,0 +1,121 @@
+"""Figures of the demo's report."""
+
+import numpy as np
+
+from myograph.case import Solution
+from myograph.cli.arm import bone_surfaces
+from myograph.cli.demo.networks import Comparison
+from myograph.cli.demo.simulation import Simulation
+from myograph.cli.demo.sizes import MUSCLE
+from myograph.evaluation import Figure
+from myograph.learning.mesh import delaunay_edges
+from myograph.mesh.presets import muscle_mesh, resolution
+from myograph.mesh.tissue import tendon_share
+from myograph.units import degrees
+from myograph.view import (
+    NetworkNodes,
+    Surface,
+    draw_arm,
+    draw_error_bars,
+    draw_heat_maps,
+    draw_moments,
+    draw_network_nodes,
+    draw_states,
+    draw_training,
+)
+from myograph.view.palette import MUSCLE_COLOURS
+
+_TOLD_ACTIVATIONS = (0.0, 0.5, 1.0)
+
+
+def figures(simulation: Simulation, comparison: Comparison) -> tuple[Figure, ...]:
+    """All figures, in the order of the report."""
+    return (
+        _arm_figure(simulation, active=False),
+        _arm_figure(simulation, active=True),
+        _moment_figure(simulation),
+        _states_figure(simulation, comparison),
+        _error_figure(comparison),
+        _heat_figure(simulation, comparison),
+        _nodes_figure(comparison),
+        _training_figure(comparison),
+    )
+
+
+def _arm_figure(simulation: Simulation, active: bool) -> Figure:
+    solution = _corner(simulation, 1.0 if active else 0.0)
+    flexion = solution.elbow_angle - simulation.arm.reference_angle
+    muscles = []
+    for name, table in simulation.tables.items():
+        preset = simulation.dataset.attrs["preset"]
+        share = tendon_share(simulation.arm, name, muscle_mesh(simulation.arm, name, resolution(preset)))
+        points = solution.fields[name]["position"]
+        muscles.append(Surface(points, table.skin, name, MUSCLE_COLOURS[name], share))
+    state = "all muscles fully active" if active else "all muscles at rest"
+    title = f"{state}: elbow at {degrees(solution.elbow_angle):.0f}°"
+    picture = draw_arm([*bone_surfaces(simulation.arm, flexion), *muscles], title)
+    return Figure(f"The arm, {state}, where its moments balance.", picture, f"Arm with five muscles, {title}")
+
+
+def _moment_figure(simulation: Simulation) -> Figure:
+    angles = np.linspace(*np.radians(simulation.arm.hinge.range_deg), 81)
+    moments = {
+        name: {level: table.moment(angles, level) / 1000 for level in _TOLD_ACTIVATIONS}
+        for name, table in simulation.tables.items()
+    }
+    caption = "Moment of each muscle about the elbow over its angle, from the tables of finite-element states."
+    return Figure(caption, draw_moments(np.degrees(angles), moments), "Moments of five muscles over the elbow angle")
+
+
+def _states_figure(simulation: Simulation, comparison: Comparison) -> Figure:
+    rest, active = (_corner(simulation, level).fields[MUSCLE]["position"] for level in (0.0, 1.0))
+    picture = draw_states(rest, active, simulation.tables[MUSCLE].skin, comparison.sampler.sensors)
+    caption = (
+        "The biceps with all muscles at rest and fully active (as figure 5.2 of the thesis): the nine sensors"
+        " black, the queries blue, arrows from S to T."
+    )
+    return Figure(caption, picture, "Biceps at rest and active")
+
+
+def _error_figure(comparison: Comparison) -> Figure:
+    caption = "Mean error of each method under each protocol."
+    return Figure(caption, draw_error_bars(comparison.summaries), "Bars of mean errors")
+
+
+def _heat_figure(simulation: Simulation, comparison: Comparison) -> Figure:
+    nodes = len(simulation.tables[MUSCLE].reference)
+    maps = {}
+    for method, row in comparison.errors.items():
+        if method != "do_nothing":
+            maps[method] = np.full(nodes, np.nan)
+            maps[method][comparison.sampler.queries] = row["strict"].node_mean
+    picture = draw_heat_maps(simulation.tables[MUSCLE].reference, simulation.tables[MUSCLE].skin, maps)
+    caption = "Where the errors sit on the biceps, protocol strict (as figure 6.2 f of the thesis)."
+    return Figure(caption, picture, "Heat maps of the error on the biceps")
+
+
+def _nodes_figure(comparison: Comparison) -> Figure:
+    networks = [comparison.networks[key] for key in sorted(comparison.networks) if key[1] == "thesis"]
+    before = [
+        NetworkNodes(f"{g.name}, before", g.record.nodes_before, delaunay_edges(g.record.nodes_before))
+        for g in networks
+    ]
+    after = [
+        NetworkNodes(f"{g.name}, after", g.record.nodes_after, delaunay_edges(g.record.nodes_after)) for g in networks
+    ]
+    cloud = comparison.sampler.positions[0]
+    caption = "The networks' nodes before and after training (as figure 6.2 a–e of the thesis)."
+    return Figure(caption, draw_network_nodes(before, after, cloud), "Nodes of both networks before and after training")
+
+
+def _training_figure(comparison: Comparison) -> Figure:
+    runs = {
+        f"{network.name}, {protocol}": (np.arange(1, len(network.record.rmse) + 1), network.record.rmse)
+        for (_, protocol), network in sorted(comparison.networks.items())
+    }
+    return Figure("Error of the training batches over the steps.", draw_training(runs), "Training curves")
+
+
+def _corner(simulation: Simulation, level: float) -> Solution:
+    """Solution with all muscles at one activation."""
+    return next(s for s in simulation.solutions if set(s.case.activations) == {level})

@@ -1,0 +1,102 @@
+"""The verb `demo`, and the same as a function."""
+
+import shlex
+import sys
+import time
+from importlib.metadata import version
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from myograph.anatomy.load import arm_checksum
+from myograph.anatomy.model import Arm
+from myograph.cli.demo.sizes import SEED, SENSORS, demo_size
+from myograph.cli.options import ArmFile, Json, Preset, print_json, read_arm
+from myograph.cli.progress import Steps
+from myograph.errors import InputError, MissingPackageError
+
+_VERSIONS = ("myograph", "ngsolve", "torch", "numpy", "scipy")
+
+
+def demo(
+    preset: Preset = "quick",
+    out: Annotated[Path, typer.Option(help="Folder for the report, the dataset, the tables and the models.")] = Path(
+        "myograph-demo"
+    ),
+    arm_file: ArmFile = None,
+    json: Json = False,
+) -> None:
+    """Simulate the arm, teach the networks, and write a report: the main job, from nothing.
+
+    Tables that lie ready in the folder, made for the same arm and preset, are used again.
+    """
+    result = run_demo(read_arm(arm_file), preset, out, Steps())
+    if json:
+        print_json(result)
+        return
+    typer.echo(f"{'method':20} {'protocol':10} {'mean':>8} {'RMSE':>8} {'95 %':>8} {'max':>8}   [mm]")
+    for method, row in result["methods"].items():
+        for protocol, e in row.items():
+            figures = " ".join(f"{e[key]:8.2f}" for key in ("mean_mm", "rmse_mm", "p95_mm", "max_mm"))
+            typer.echo(f"{method:20} {protocol:10} {figures}")
+    typer.echo(f"report: {result['report']}  ({result['seconds']['total']:.0f} s)")
+
+
+def run_demo(arm: Arm, preset: str, out: Path, steps: Steps) -> dict[str, Any]:
+    """Do the whole job into the folder `out`; return what `--json` prints.
+
+    Raises InputError for a folder that cannot be written, NotConvergedError where a solve fails.
+    """
+    started = time.perf_counter()
+    size = demo_size(preset)
+    _check_writable(out)
+    try:
+        from myograph.cli.demo.networks import compare, learn
+        from myograph.cli.demo.report import write_demo_report
+        from myograph.cli.demo.simulation import simulate
+    except ModuleNotFoundError as missing:
+        raise MissingPackageError(str(missing.name), "all", "the demo") from None
+    simulation = simulate(arm, preset, size, out, steps)
+    simulated = time.perf_counter() - started
+    networks = learn(simulation.dataset, size, out, steps)
+    comparison = compare(simulation.dataset, networks, steps)
+    provenance = {
+        "command": shlex.join(["myograph", *sys.argv[1:]]),
+        "seed": str(SEED),
+        "sensors": str(SENSORS),
+        "arm": arm_checksum(arm),
+        "dataset": comparison.sampler.source.checksum,
+        "versions": ", ".join(f"{name} {version(name)}" for name in _VERSIONS),
+    }
+    report = write_demo_report(simulation, comparison, steps, provenance, out / "report.html")
+    return {
+        "preset": preset,
+        "seconds": {
+            "simulate": round(simulated, 2),
+            "train": round(steps.seconds["training"], 2),
+            "total": round(time.perf_counter() - started, 2),
+        },
+        "nodes": int(simulation.dataset.sizes["nodes"]),
+        "cases": int(simulation.dataset.sizes["cases"]),
+        "methods": {
+            method: {
+                protocol: {key: getattr(e, key) for key in ("mean_mm", "rmse_mm", "p95_mm", "max_mm")}
+                for protocol, e in row.items()
+            }
+            for method, row in comparison.summaries.items()
+        },
+        "report": str(report),
+    }
+
+
+def _check_writable(out: Path) -> None:
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        probe = out / ".writable"
+        probe.touch()
+        probe.unlink()
+    except OSError as problem:
+        raise InputError(
+            f"{out}: expected a folder that can be written, got: {problem.strerror}; choose --out"
+        ) from None

@@ -1,0 +1,103 @@
+"""From one solved state of a muscle to another: steps that are cut back on failure and grown on success.
+
+A path of controls leads from state to state: first the pre-stretch is ramped up in the reference pose, then the angle
+changes at rest, then the activation jumps. Every step starts from the last solved one, along the secant of the last
+two.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from myograph.errors import NotConvergedError, SolvePoint
+from myograph.mechanics.newton import newton
+from myograph.mechanics.problem import MuscleProblem
+from myograph.units import degrees, radians
+
+LARGEST_TURN = radians(20.0)
+SMALLEST_SHARE = 1 / 128
+
+
+@dataclass(frozen=True)
+class Controls:
+    """Ramp of the pre-stretch (0 to 1), activation, flexion from the reference pose [rad]."""
+
+    ramp: float
+    activation: float
+    flexion: float
+
+    def towards(self, target: "Controls", share: float) -> "Controls":
+        """Controls on the straight way to the target."""
+        first, last = np.array(self.values()), np.array(target.values())
+        return Controls(*map(float, first + share * (last - first)))
+
+    def values(self) -> tuple[float, float, float]:
+        """All three, in order."""
+        return self.ramp, self.activation, self.flexion
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A solved state: its controls, its unknowns, and the Newton steps that led to it from the state before."""
+
+    controls: Controls
+    vector: Float[np.ndarray, " unknowns"]
+    newton_steps: int
+
+
+def unloaded(problem: MuscleProblem) -> Solved:
+    """The reference body: no pre-stretch, no activation, reference pose."""
+    return Solved(Controls(0.0, 0.0, 0.0), np.zeros(problem.vector_size), 0)
+
+
+def at_rest(problem: MuscleProblem) -> Solved:
+    """The muscle in the reference pose with its full pre-stretch, not activated."""
+    return reach(problem, unloaded(problem), Controls(1.0, 0.0, 0.0), first_share=1 / 16)
+
+
+def reach(problem: MuscleProblem, start: Solved, target: Controls, first_share: float = 1.0) -> Solved:
+    """Solve at `target`, from `start`.
+
+    Raises NotConvergedError with the place and the residuals where even the smallest step does not lead on.
+    """
+    if start.controls == target:
+        return start
+    turn = abs(target.flexion - start.controls.flexion)
+    share = min(first_share, LARGEST_TURN / turn if turn > LARGEST_TURN else 1.0)
+    done, steps, here = 0.0, 0, start
+    while done < 1:
+        share = min(share, 1 - done)
+        controls = start.controls.towards(target, done + share)
+        set_controls(problem, controls)
+        moved = problem.boundary_values(controls.flexion) - problem.boundary_values(here.controls.flexion)
+        result = newton(problem, here.vector, moved)
+        steps += len(result.residuals)
+        if not result.failure:
+            here = Solved(controls, result.vector, steps)
+            done = 1.0 if done + share > 1 - 1e-9 else done + share
+            share *= 1.5
+        elif share / 2 < SMALLEST_SHARE:
+            raise _failure(problem, controls, result.failure, result.residuals)
+        else:
+            share /= 2
+    return Solved(target, here.vector, steps)
+
+
+def set_controls(problem: MuscleProblem, controls: Controls) -> None:
+    """Let the problem's energy speak of these controls."""
+    problem.controls.ramp.Set(controls.ramp)
+    problem.controls.activation.Set(controls.activation)
+    problem.controls.turn.set(controls.flexion)
+
+
+def _failure(
+    problem: MuscleProblem, controls: Controls, reason: str, residuals: tuple[float, ...]
+) -> NotConvergedError:
+    angle = problem.arm.reference_angle + controls.flexion
+    history = ", ".join(f"{r:.1e}" for r in residuals)
+    message = (
+        f"{problem.name} at activation {controls.activation:.3f}, {degrees(angle):.1f} degrees, pre-stretch ramp"
+        f" {controls.ramp:.2f}: {reason}; residual over reaction: {history or 'none'}"
+    )
+    return NotConvergedError(message, SolvePoint(problem.name, controls.activation, angle), residuals)

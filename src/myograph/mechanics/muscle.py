@@ -1,0 +1,104 @@
+"""One muscle by finite elements: ask for an activation and an angle, get the deformed, stressed muscle."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import ngsolve as ngs
+import numpy as np
+
+from myograph.anatomy.model import Arm
+from myograph.case import check_activation, check_muscle
+from myograph.errors import InputError
+from myograph.mechanics.continuation import Controls, Solved, at_rest, reach, set_controls
+from myograph.mechanics.problem import MuscleProblem
+from myograph.mechanics.stress import FieldReader
+from myograph.mesh.hexahedra import HexMesh
+from myograph.mesh.presets import muscle_mesh, resolution
+from myograph.units import degrees
+
+
+@dataclass(frozen=True)
+class MuscleState:
+    """A muscle in equilibrium.
+
+    Parameters
+    ----------
+    muscle, activation, angle
+        Which, how active, at which elbow flexion [rad].
+    moment
+        About the hinge [N*mm]; positive flexes.
+    fields
+        Field name (see `myograph.fields`) -> values at the nodes.
+    newton_steps
+        Steps from the state before.
+    """
+
+    muscle: str
+    activation: float
+    angle: float
+    moment: float
+    fields: Mapping[str, np.ndarray]
+    newton_steps: int
+
+
+class FiniteElementMuscle:
+    """The named muscle of an arm on the mesh of a preset; one thread, one process.
+
+    Raises InputError for an unknown muscle or preset, or a body that cannot be meshed.
+    """
+
+    def __init__(self, arm: Arm, name: str, preset: str) -> None:
+        check_muscle(name)
+        ngs.SetNumThreads(1)
+        ngs.ngsglobals.msg_level = 0
+        self.arm = arm
+        self.mesh: HexMesh = muscle_mesh(arm, name, resolution(preset))
+        self._problem = MuscleProblem(arm, name, self.mesh, native=preset == "thesis")
+        self._reader = FieldReader(self._problem)
+
+    def solve(self, activation: float, angle: float) -> MuscleState:
+        """State at an activation in [0, 1] and an elbow flexion [rad] inside the arm's range.
+
+        Raises InputError outside the box, NotConvergedError where Newton's method fails.
+        """
+        check_activation(activation, self._problem.name)
+        flexion = self._flexion(angle)
+        relaxed = reach(self._problem, at_rest(self._problem), Controls(1.0, 0.0, flexion))
+        return self._state(reach(self._problem, relaxed, Controls(1.0, activation, flexion)))
+
+    def walk(self, angles: Sequence[float], activations: Sequence[float]) -> Iterator[tuple[int, int, MuscleState]]:
+        """All states of the grid angles [rad] x activations (rising from 0), each from a solved neighbour.
+
+        The angle is swept at rest, outwards from the reference pose; at every angle the activation rises. Yields
+        (angle's index, activation's index, state).
+        """
+        start = at_rest(self._problem)
+        reference = self.arm.reference_angle
+        up = [k for k, angle in enumerate(angles) if angle >= reference]
+        down = [k for k, angle in reversed(list(enumerate(angles))) if angle < reference]
+        for side in (up, down):
+            relaxed = start
+            for k in side:
+                flexion = self._flexion(angles[k])
+                relaxed = reach(self._problem, relaxed, Controls(1.0, 0.0, flexion))
+                here = relaxed
+                for j, activation in enumerate(activations):
+                    here = reach(self._problem, here, Controls(1.0, activation, flexion))
+                    yield k, j, self._state(here)
+
+    def _flexion(self, angle: float) -> float:
+        low, high = self.arm.hinge.range_deg
+        if not np.isfinite(angle) or not low - 1e-9 <= degrees(angle) <= high + 1e-9:
+            raise InputError(f"elbow angle: expected {low:g} to {high:g} degrees, got {degrees(angle):g}")
+        return angle - self.arm.reference_angle
+
+    def _state(self, solved: Solved) -> MuscleState:
+        set_controls(self._problem, solved.controls)
+        return MuscleState(
+            muscle=self._problem.name,
+            activation=solved.controls.activation,
+            angle=self.arm.reference_angle + solved.controls.flexion,
+            moment=self._problem.moment(solved.vector, solved.controls.flexion),
+            fields=self._reader.read(solved.vector),
+            newton_steps=solved.newton_steps,
+        )

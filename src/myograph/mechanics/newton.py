@@ -1,0 +1,86 @@
+"""Newton's method for one load step of a muscle.
+
+The prescribed displacement enters the first linear solve (r + K d), so that the whole body follows the boundary; put
+straight into the boundary nodes it would invert the next elements. That first step is always accepted; later ones are
+halved until the residual is below twice the last one or a hundredth of the reaction.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from myograph.mechanics.problem import MuscleProblem
+from myograph.mesh.hexahedra import jacobian_determinants, lattice
+
+TOLERANCE = 1e-7
+"""Residual force over the reaction at which a state counts as solved."""
+MOST_STEPS = 25
+_MOST_HALVINGS = 6
+_SMALLEST_REACTION = 1.0
+_PRESSURE_SCALE = 0.01
+"""Force per volume [N/mm³] that makes the residual of the volume constraint comparable to forces."""
+_GAUSS = (-float(np.sqrt(0.6)), 0.0, float(np.sqrt(0.6)))
+
+
+@dataclass(frozen=True)
+class NewtonResult:
+    """Where Newton's method ended: the unknowns, residual over reaction after each step, and why it stopped early."""
+
+    vector: Float[np.ndarray, " unknowns"]
+    residuals: tuple[float, ...]
+    failure: str = ""
+
+
+def newton(
+    problem: MuscleProblem, vector: Float[np.ndarray, " unknowns"], increment: Float[np.ndarray, " unknowns"]
+) -> NewtonResult:
+    """Solve at the problem's present controls, from `vector`, moving the boundary by `increment` [mm]."""
+    tangent = problem.tangent(vector)
+    change = increment + tangent.solve(-(problem.residual(vector) + tangent.times(increment)))
+    vector = vector + change
+    history: list[float] = []
+    while True:
+        if not np.isfinite(vector).all():
+            return NewtonResult(vector, tuple(history), "the unknowns became infinite")
+        residual = problem.residual(vector)
+        size, reaction = _norms(problem, residual)
+        history.append(size / reaction)
+        if not np.isfinite(size):
+            return NewtonResult(vector, tuple(history), "the residual became infinite")
+        if size <= TOLERANCE * reaction:
+            smallest = smallest_volume_ratio(problem, vector)
+            failure = "" if smallest > 0 else f"an element turned inside out (J = {smallest:.3f})"
+            return NewtonResult(vector, tuple(history), failure)
+        if len(history) > MOST_STEPS:
+            return NewtonResult(vector, tuple(history), f"no convergence in {MOST_STEPS} steps")
+        change = problem.tangent(vector).solve(-residual)
+        vector = vector + _damping(problem, vector, change, max(2 * size, 1e-2 * reaction)) * change
+
+
+def _damping(problem: MuscleProblem, vector: np.ndarray, change: np.ndarray, bound: float) -> float:
+    """Largest of 1, 1/2, 1/4 ... whose residual stays under the bound; the smallest tried if none does."""
+    factor = 1.0
+    for _ in range(_MOST_HALVINGS):
+        size, _ = _norms(problem, problem.residual(vector + factor * change))
+        if np.isfinite(size) and size <= bound:
+            break
+        factor /= 2
+    return factor
+
+
+def _norms(problem: MuscleProblem, residual: Float[np.ndarray, " unknowns"]) -> tuple[float, float]:
+    """Norm of the residual on the free unknowns [N], and of the reaction on the fixed ones [N]."""
+    forces = 3 * problem.space.scalar.ndof
+    free = np.where(problem.free, residual, 0.0)
+    size = np.hypot(np.linalg.norm(free[:forces]), _PRESSURE_SCALE * np.linalg.norm(free[forces:]))
+    reaction = np.linalg.norm(residual[~problem.free])
+    return float(size), float(max(reaction, _SMALLEST_REACTION))
+
+
+def smallest_volume_ratio(problem: MuscleProblem, vector: Float[np.ndarray, " unknowns"]) -> float:
+    """Smallest J = det F over all integration points."""
+    cells, local = problem.hexahedra.cells, lattice(_GAUSS)
+    now = jacobian_determinants(problem.positions(vector), cells, local)
+    before = jacobian_determinants(problem.hexahedra.points, cells, local)
+    return float((now / before).min())

@@ -1,0 +1,58 @@
+"""Work side by side in processes of one thread each, with news from inside while it runs.
+
+Every process is new ('spawn'), so that nothing leaks from one to another; on an error or an interrupt all are ended
+at once.
+"""
+
+import multiprocessing
+import os
+import queue
+import signal
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor
+from typing import Any, TypeVar
+
+Result = TypeVar("Result")
+News = Callable[[Any], None]
+
+
+def side_by_side(work: Callable[..., Result], tasks: Sequence[tuple], on_news: News) -> list[Result]:
+    """Results of work(*task, tell) for every task, in their order; what a task tells arrives at `on_news` here.
+
+    As many processes as processors; the tasks start in the given order. The first error of a task is raised here.
+    """
+    if not tasks:
+        return []
+    context = multiprocessing.get_context("spawn")
+    with context.Manager() as manager:
+        news = manager.Queue()
+        pool = ProcessPoolExecutor(min(len(tasks), os.cpu_count() or 1), context, initializer=_prepare)
+        try:
+            futures = [pool.submit(_work, work, task, news) for task in tasks]
+            _follow(futures, news, on_news)
+            return [future.result() for future in futures]
+        finally:
+            processes = list((pool._processes or {}).values())
+            pool.shutdown(wait=False, cancel_futures=True)
+            for process in processes:
+                process.terminate()
+
+
+def _work(work: Callable[..., Result], task: tuple, news: "queue.Queue[Any]") -> Result:
+    return work(*task, news.put)
+
+
+def _follow(futures: Sequence[Future], news: "queue.Queue[Any]", on_news: News) -> None:
+    """Pass the news on until all tasks are done or one has failed."""
+    while True:
+        try:
+            on_news(news.get(timeout=0.1))
+        except queue.Empty:
+            if all(future.done() for future in futures) or any(f.done() and f.exception() for f in futures):
+                return
+
+
+def _prepare() -> None:
+    """One thread for each process; the interrupt is the parent's business."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.environ["OMP_NUM_THREADS"] = "1"
