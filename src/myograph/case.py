@@ -19,7 +19,7 @@ MUSCLES = ("brachioradialis", "brachialis", "biceps", "anconeus", "triceps")
 
 def check_activation(value: float, muscle: str) -> float:
     """Return the activation; raise InputError unless it is a number in [0, 1]."""
-    if not isinstance(value, (int, float, np.floating, np.integer)) or not math.isfinite(value) or not 0 <= value <= 1:
+    if not math.isfinite(value) or not 0 <= value <= 1:
         raise InputError(f"activation of {muscle}: expected a number in [0, 1], got {value!r}")
     return float(value)
 

@@ -38,11 +38,11 @@ def side_by_side(work: Callable[..., Result], tasks: Sequence[tuple], on_news: N
                 process.terminate()
 
 
-def _work(work: Callable[..., Result], task: tuple, news: "queue.Queue[Any]") -> Result:
+def _work(work: Callable[..., Result], task: tuple, news: Any) -> Result:
     return work(*task, news.put)
 
 
-def _follow(futures: Sequence[Future], news: "queue.Queue[Any]", on_news: News) -> None:
+def _follow(futures: Sequence[Future], news: Any, on_news: News) -> None:
     """Pass the news on until all tasks are done or one has failed."""
     while True:
         try:

@@ -157,11 +157,10 @@ def test_a_full_disk_leaves_the_old_report_and_no_half_one(tmp_path: Path, monke
     path = tmp_path / "report.html"
     path.write_text("old")
 
-    def full(self: Path, text: str, encoding: str) -> None:
-        self.write_bytes(text[:100].encode())
+    def full(self: Path, target: Path) -> Path:
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr(Path, "write_text", full)
+    monkeypatch.setattr(Path, "replace", full)
     with pytest.raises(InputError, match=r"report\.html.*No space left"):
         write_report(report(), path)
     assert path.read_text() == "old"

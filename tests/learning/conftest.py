@@ -93,7 +93,7 @@ def strict(dataset):
 @pytest.fixture(scope="session")
 def gen_8(sampler, strict):
     """The thesis's small graph, trained for some seconds."""
-    return train_gen(sampler, strict, NetworkConfig(), TrainingConfig(steps=250))
+    return train_gen(sampler, strict, NetworkConfig(), TrainingConfig(steps=300))
 
 
 @pytest.fixture(scope="session")

@@ -1,5 +1,7 @@
 """A trained network as a predictor; what every predictor refuses."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -48,6 +50,12 @@ def test_the_mean_takes_any_number_of_sensors_and_the_sum_only_that_of_training(
     total = train_gen(sampler, strict, NetworkConfig(aggregation="sum"), TrainingConfig(steps=1))
     with pytest.raises(InputError, match="expected 9 sensors, as in training, got 7"):
         total.predict(batch.sensors[:, :7], batch.queries)
+
+
+def test_it_survives_the_way_from_one_process_to_another(gen_8, batch):
+    arrived = pickle.loads(pickle.dumps(gen_8))
+    answers = (gen.predict(batch.sensors, batch.queries) for gen in (arrived, gen_8))
+    np.testing.assert_array_equal(*answers)
 
 
 def test_it_is_named_after_its_graph(gen_8):

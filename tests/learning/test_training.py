@@ -49,7 +49,8 @@ def test_held_out_cases_leave_no_trace_in_what_is_learned(sampler, strict):
 
 
 def test_graph_nodes_move_and_are_joined_anew_where_they_end(sampler, strict):
-    gen = train_gen(sampler, strict, NetworkConfig(nodes_per_axis=3), FEW)
+    far = FEW.model_copy(update={"node_learning_rate": 0.1, "triangulate_every": 100})
+    gen = train_gen(sampler, strict, NetworkConfig(nodes_per_axis=3), far)
     assert gen.record.nodes_before.shape == gen.record.nodes_after.shape == (27, 3)
     assert (np.abs(gen.record.nodes_after - gen.record.nodes_before).max(axis=1) > 0).all()
     joined = gen.network.adjacency.to_dense()

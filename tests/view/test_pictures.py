@@ -4,6 +4,7 @@ import io
 import itertools
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -27,7 +28,7 @@ from myograph.view import (
     draw_training,
 )
 from myograph.view.canvas import RESOLUTION
-from myograph.view.palette import BONE, MUSCLE_COLOURS, SKY
+from myograph.view.palette import BONE, MUSCLE_COLOURS, SERIES_COLOURS
 
 STEPS = np.arange(0, 1000, 50)
 SENSORS = 131 * np.arange(9) + 5
@@ -41,11 +42,6 @@ def pixels(png: bytes) -> np.ndarray:
 
 def rgb(colour: str) -> np.ndarray:
     return np.array([int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)])
-
-
-def share_of(picture: np.ndarray, colour: str) -> float:
-    """Fraction of the pixels that have exactly this colour."""
-    return float(np.mean(np.all(np.abs(picture - rgb(colour)) < 2 / 255, axis=2)))
 
 
 def arm(biceps) -> list[Surface]:
@@ -108,13 +104,16 @@ def test_the_same_picture_twice_is_the_same_file(biceps):
     assert draw("states", biceps) == draw("states", biceps)
 
 
-def test_the_arm_shows_each_muscle_in_its_hue_and_tendon_pale(biceps):
-    picture = pixels(draw("arm", biceps))
-    orange = (picture[..., 0] > 0.5) & (picture[..., 2] < 0.5 * picture[..., 0])
-    pale = (picture.min(axis=2) > 0.8) & (picture[..., 0] > picture[..., 2] + 0.01)
-    assert 0.005 < orange.mean() < 0.2
-    assert pale.mean() > 0.005
-    assert share_of(picture, SKY) > 0.5
+def test_a_muscle_is_drawn_in_its_hue_and_its_tendon_white(biceps):
+    muscle = arm(biceps)[0]
+    picture, belly_only = (pixels(draw_arm([drawn])) for drawn in (muscle, replace(muscle, tendon=None)))
+    orange = (belly_only[..., 0] > 0.5) & (belly_only[..., 2] < 0.5 * belly_only[..., 0])
+    rows, columns = np.nonzero(orange)
+    white = (picture.min(axis=2) > 0.6)[rows, columns].mean()
+    still_orange = (picture[..., 2] < 0.5 * picture[..., 0])[rows, columns].mean()
+    assert orange.mean() > 0.02
+    assert 0.05 < white < 0.5
+    assert 0.3 < still_orange < 0.9
 
 
 def test_muscles_are_told_apart_by_colour_blind_readers():
@@ -147,6 +146,21 @@ def test_both_states_show_each_sensor_as_a_black_dot_and_queries_blue(biceps):
     assert (picture[..., 2] > picture[..., 0] + 0.2).mean() > 0.01
 
 
+def test_each_node_of_a_network_is_a_dot_in_both_panels(biceps):
+    picture = pixels(draw_network_nodes([network(8)], [network(8)], biceps["position"].values[0]))
+    orange = (picture[..., 0] > picture[..., 2] + 0.25) & (picture[..., 0] > 0.7)
+    sizes = np.bincount(label(orange)[0].ravel())[1:]
+    assert np.sum(sizes > 20) == 16
+
+
+def test_bars_are_as_high_as_the_errors():
+    """Method b errs twice as much as a: so is its largest patch, a bar; the legend's are smaller."""
+    picture = pixels(draw_error_bars(summaries()))
+    drawn = [label(np.abs(picture - rgb(colour)).max(axis=2) < 0.01)[0] for colour in SERIES_COLOURS[:2]]
+    first, second = (np.bincount(patches.ravel())[1:].max() for patches in drawn)
+    assert second / first == pytest.approx(2, rel=0.03)
+
+
 def test_a_heat_map_is_red_where_the_error_is_and_nodes_not_asked_are_grey(biceps):
     points, quads = biceps["position"].values[0], biceps["surface_quads"].values
     upper = points[:, 2] > -450
@@ -164,6 +178,7 @@ def test_drawing_leaves_matplotlibs_global_state_alone(biceps):
     import matplotlib
     from matplotlib import pyplot
 
+    matplotlib.rcdefaults()
     before = dict(matplotlib.rcParams)
     draw("heat", biceps)
     assert dict(matplotlib.rcParams) == before

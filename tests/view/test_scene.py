@@ -78,7 +78,8 @@ def test_without_relief_colours_are_what_they_were():
 
 def test_light_comes_from_above_left():
     pixels = picture(ball((0, 0, 0), 20.0, RED))
-    assert at(pixels, -9, 9).sum() > at(pixels, 9, -9).sum()
+    assert at(pixels, -9, 0).sum() > at(pixels, 9, 0).sum()
+    assert at(pixels, 0, 9).sum() > at(pixels, 0, -9).sum()
 
 
 def test_the_brightest_point_of_a_ball_faces_the_lamp():

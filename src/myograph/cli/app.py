@@ -15,6 +15,8 @@ from myograph.cli.demo import demo
 from myograph.cli.solve import solve
 from myograph.errors import MyographError
 
+INTERRUPTED = 130
+
 app = typer.Typer(
     name="myograph",
     help="Muscle activations in, deformed muscles out.",
@@ -54,8 +56,9 @@ def main() -> None:
         _say(f"{error.format_message()}; see 'myograph --help'")
         sys.exit(2)
     except (KeyboardInterrupt, typer.Abort):
+        code = INTERRUPTED
+    if code == INTERRUPTED:
         _say("interrupted; nothing is half-written")
-        sys.exit(130)
     sys.exit(code if isinstance(code, int) else 0)
 
 

@@ -79,7 +79,7 @@ def save_dataset(dataset: xr.Dataset, path: Path) -> None:
     except OSError as problem:
         raise InputError(f"{path}: cannot be written: {problem.strerror}") from None
     try:
-        dataset.to_zarr(aside / "new", mode="w", consolidated=False)
+        _texts_as(dataset, object).to_zarr(aside / "new", mode="w", consolidated=False)
         if path.exists():
             path.rename(aside / "old")
         (aside / "new").rename(path)
@@ -92,7 +92,7 @@ def load_dataset(path: Path) -> xr.Dataset:
     if not path.is_dir():
         raise InputError(f"{path}: expected a dataset folder, found none")
     try:
-        dataset = xr.open_zarr(path, consolidated=False).load()
+        dataset = _texts_as(xr.open_zarr(path, consolidated=False).load(), str)
     except Exception as problem:
         raise InputError(f"{path}: not a readable dataset: {problem}") from None
     if dataset.attrs.get("schema") != SCHEMA:
@@ -100,3 +100,10 @@ def load_dataset(path: Path) -> xr.Dataset:
             f"{path}: expected dataset schema {SCHEMA}, got {dataset.attrs.get('schema')!r}; simulate anew"
         )
     return dataset
+
+
+def _texts_as(dataset: xr.Dataset, kind: type) -> xr.Dataset:
+    """Texts of another kind: Zarr knows them as objects of any length, numpy in memory as arrays of equal length."""
+    texts = [name for name, array in dataset.variables.items() if array.dtype.kind in "UOT"]
+    changed = {name: np.array(dataset[name].values.tolist(), dtype=kind) for name in texts}
+    return dataset.assign({str(name): (dataset[name].dims, values) for name, values in changed.items()})

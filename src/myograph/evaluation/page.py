@@ -5,30 +5,21 @@ escaped. The frame `page.html` and its style `page.css` lie beside this module.
 """
 
 import base64
-import contextlib
-import os
 from collections.abc import Iterable, Mapping
 from html import escape
 from importlib.resources import files
 from pathlib import Path
 from string import Template
 
-from myograph.errors import InputError
 from myograph.evaluation.report import Figure, Report
 from myograph.evaluation.table import error_tables
+from myograph.files import write_whole
 
 
 def write_report(report: Report, path: Path) -> None:
-    """Write the report as HTML to `path`, aside and then renamed, so that it is never half there."""
-    aside = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        aside.write_text(report_page(report), encoding="utf-8")
-        aside.replace(path)
-    except OSError as problem:
-        with contextlib.suppress(OSError):
-            aside.unlink()
-        raise InputError(f"{path}: the report cannot be written: {problem.strerror}; choose another place") from None
+    """Write the report as HTML to `path`; it appears whole or not at all."""
+    page = report_page(report).encode()
+    write_whole(path, lambda file: file.write(page))
 
 
 def report_page(report: Report) -> str:

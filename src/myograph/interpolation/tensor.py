@@ -22,7 +22,10 @@ class TensorSpline:
     """
 
     def __init__(
-        self, x: Float[np.ndarray, " x"], y: Float[np.ndarray, " y"], values: Float[np.ndarray, "x y *components"]
+        self,
+        x: Float[np.ndarray, " x"],
+        y: Float[np.ndarray, " y"],
+        values: Float[np.ndarray, "rows columns *components"],
     ) -> None:
         if values.shape[:2] != (len(x), len(y)):
             raise InputError(
@@ -47,7 +50,7 @@ class TensorSpline:
         curve = np.tensordot(self._coefficients, second, axes=([1], [0]))
         first = _weights(self._x, np.atleast_1d(x), derivative[0])
         result = np.tensordot(first, curve, axes=1)
-        return result if np.ndim(x) else result[0]
+        return result if np.ndim(x) else np.asarray(result[0])
 
 
 def _spline(places: np.ndarray, values: np.ndarray, axis: int) -> tuple[BSpline, np.ndarray]:

@@ -75,8 +75,8 @@ class TrainingConfig(Model):
 
     steps: int = Field(default=2000, ge=1)
     seconds: float | None = Field(default=None, gt=0)
-    batch: int = Field(default=16, ge=1)
-    queries: int = Field(default=128, ge=1)
+    batch: int = Field(default=8, ge=1)
+    queries: int = Field(default=64, ge=1)
     learning_rate: float = Field(default=6e-3, gt=0)
     node_learning_rate: float = Field(default=3e-3, gt=0)
     triangulate_every: int = Field(default=50, ge=1)

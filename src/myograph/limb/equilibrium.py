@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 SCAN = 201
 Balance = Callable[[Float[np.ndarray, " points"]], Float[np.ndarray, " points"]]
@@ -39,4 +39,4 @@ def equilibria(balance: Balance, low: float, high: float) -> tuple[Equilibrium, 
 
 
 def _root(balance: Balance, low: float, high: float) -> float:
-    return float(brentq(lambda angle: float(balance(np.array([angle]))[0]), low, high, xtol=1e-10))
+    return float(root_scalar(lambda angle: float(balance(np.array([angle]))[0]), bracket=(low, high), xtol=1e-10).root)

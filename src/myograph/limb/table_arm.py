@@ -68,6 +68,6 @@ class TableArm:
             for moment, angle in zip(ends, (low, high), strict=True)
         )
         return (
-            f"activations {case.activations} with {case.hand_load:g} N in the hand: expected an elbow angle at rest from"
+            f"activations {case.activations} with {case.hand_load:g} N in the hand: expected an angle at rest from"
             f" {low:g} to {high:g} degrees, got none (net moment {moments}); change the load or the activations"
         )

@@ -10,7 +10,7 @@ def fibre_direction(space: NodalSpace) -> ngs.CoefficientFunction:
     potential_space = ngs.H1(space.mesh, order=2, dirichlet="origin|insertion")
     trial, test = potential_space.TnT()
     potential = ngs.GridFunction(potential_space)
-    potential.Set(1, definedon=space.mesh.Boundaries("insertion"))
+    potential.Set(ngs.CoefficientFunction(1.0), definedon=space.mesh.Boundaries("insertion"))
     stiffness = ngs.BilinearForm(ngs.grad(trial) * ngs.grad(test) * ngs.dx).Assemble()
     inverse = stiffness.mat.Inverse(potential_space.FreeDofs(), "sparsecholesky")
     potential.vec.data -= inverse * (stiffness.mat * potential.vec).Evaluate()

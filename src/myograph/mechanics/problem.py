@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import ngsolve as ngs
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from ngsolve.comp import IntegrationRuleSpace
 
 from myograph.anatomy.body import end_turn
@@ -52,7 +52,7 @@ class MuscleProblem:
         self.controls = Knobs(ngs.Parameter(0.0), ngs.Parameter(0.0), Turn(ngs.Parameter(1.0), ngs.Parameter(0.0)))
         self.unknowns = _unknown_space(self.space)
         self._scratch = ngs.GridFunction(self.unknowns)
-        self.free = np.array(list(self.unknowns.FreeDofs()), dtype=bool)
+        self.free = _as_array(self.unknowns.FreeDofs())
         self.law = MuscleLaw(
             self.muscle.fibre, self.muscle.tendons, self.muscle.matrix, self.controls.activation, self.controls.ramp
         )
@@ -167,6 +167,10 @@ class Tangent:
     def times(self, vector: Float[np.ndarray, " unknowns"]) -> Float[np.ndarray, " unknowns"]:
         """Product with the tangent."""
         return _through(self._matrix, vector)
+
+
+def _as_array(bits: ngs.BitArray) -> Bool[np.ndarray, " unknowns"]:
+    return np.array([bits[k] for k in range(len(bits))], dtype=bool)
 
 
 def _unknown_space(space: NodalSpace) -> ngs.FESpace:

@@ -22,8 +22,10 @@ LAMP = np.array([-0.45, 0.55, 0.70]) / np.linalg.norm([-0.45, 0.55, 0.70])
 """Direction to the lamp, as (right, up, towards the viewer)."""
 HALFWAY = (LAMP + np.eye(3)[2]) / np.linalg.norm(LAMP + np.eye(3)[2])
 AMBIENT, DIFFUSE, GLOSS, SHININESS = 0.58, 0.50, 0.16, 24
-PIECES, ROUNDING = 3, 0.75
-"""Each quadrilateral becomes PIECES x PIECES; 0 leaves them flat, 1 rounds them fully."""
+FACET, MOST_PIECES = 2.0, 6
+"""Size [mm] down to which quadrilaterals are cut, but into no more than 6 x 6."""
+ROUNDING = 0.75
+"""0 leaves the pieces in the flat quadrilateral, 1 rounds them fully."""
 CONTOUR, CONTOUR_COLOUR = 0.7, np.array([0.20, 0.17, 0.15])
 """Width of the dark line around each surface [mm]: its far side, blown up, of which only the rim is seen."""
 
@@ -102,7 +104,9 @@ def _facets(surface: PaintedSurface, camera: Camera) -> tuple[np.ndarray, np.nda
     """Corners, unit normals and colours (triangles, 3, 3) of the fine triangles, in the camera's directions."""
     used = camera.project(surface.points)[surface.quads]
     normals = camera.project(node_normals(surface.points, surface.quads))[surface.quads]
-    u, v = (grid.ravel() for grid in np.meshgrid(*[np.linspace(0, 1, PIECES + 1)] * 2))
+    diagonals = np.linalg.norm(used[:, :2] - used[:, 2:], axis=-1)
+    pieces = int(np.clip(np.ceil(np.median(diagonals) / np.sqrt(2) / FACET), 1, MOST_PIECES))
+    u, v = (grid.ravel() for grid in np.meshgrid(*[np.linspace(0, 1, pieces + 1)] * 2))
     weights = np.stack([(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v], axis=1)
     fine = np.einsum("pc,fca->fpa", weights, used)
     above = np.einsum("fpca,fca->fpc", fine[:, :, None] - used[:, None], normals)
@@ -110,7 +114,7 @@ def _facets(surface: PaintedSurface, camera: Camera) -> tuple[np.ndarray, np.nda
     turned = np.einsum("pc,fca->fpa", weights, normals)
     turned /= np.maximum(np.linalg.norm(turned, axis=-1, keepdims=True), 1e-12)
     paint = np.einsum("pc,fca->fpa", weights, surface.colours[surface.quads])
-    node = np.arange(len(u)).reshape(PIECES + 1, PIECES + 1)
+    node = np.arange(len(u)).reshape(pieces + 1, pieces + 1)
     a, b, c, d = node[:-1, :-1].ravel(), node[:-1, 1:].ravel(), node[1:, 1:].ravel(), node[1:, :-1].ravel()
     halves = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
     soup = [values[:, halves].reshape(-1, 3, 3) for values in (fine, turned, paint)]

@@ -45,17 +45,18 @@ class Comparison:
 
 def learn(dataset: xr.Dataset, size: DemoSize, out: Path, steps: Steps) -> dict[tuple[int, Protocol], "Gen"]:
     """Train both networks on the pairs of each teaching protocol, side by side."""
-    taught = sorted(set(TAUGHT_BY.values()), reverse=True)
-    tasks = [(dataset, (axis, protocol), size, out) for axis in sorted(size.steps, reverse=True) for protocol in taught]
-    totals = {_title(axis, protocol): size.steps[axis] for _, (axis, protocol), _, _ in tasks}
+    taught: tuple[Protocol, ...] = ("thesis", "strict")
+    longest_first = sorted(size.steps, reverse=True)
+    which: list[tuple[int, Protocol]] = [(axis, protocol) for axis in longest_first for protocol in taught]
+    totals = {_title(axis, protocol): size.steps[axis] for axis, protocol in which}
     with steps.bars("training", totals) as advance:
 
         def heard(title: str) -> None:
             for _ in range(NEWS_EVERY):
                 advance(title)
 
-        trained = side_by_side(_train, tasks, heard)
-    return {task[1]: network for task, network in zip(tasks, trained, strict=True)}
+        trained = side_by_side(_train, [(dataset, key, size, out) for key in which], heard)
+    return dict(zip(which, trained, strict=True))
 
 
 def compare(dataset: xr.Dataset, networks: dict[tuple[int, Protocol], "Gen"], steps: Steps) -> Comparison:
@@ -75,13 +76,10 @@ def compare(dataset: xr.Dataset, networks: dict[tuple[int, Protocol], "Gen"], st
 
 
 def _train(dataset: xr.Dataset, which: tuple[int, Protocol], size: DemoSize, out: Path, tell: News) -> "Gen":
-    import torch
-
     from myograph.learning.checkpoint import save_gen
     from myograph.learning.config import NetworkConfig, TrainingConfig
     from myograph.learning.training import train_gen
 
-    torch.set_num_threads(1)
     axis, protocol = which
     sampler, split = sample_pairs(dataset, SENSORS, SEED), split_pairs(dataset, protocol, SEED)
     title = _title(axis, protocol)

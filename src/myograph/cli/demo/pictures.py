@@ -58,7 +58,8 @@ def _arm_figure(simulation: Simulation, active: bool) -> Figure:
 
 
 def _moment_figure(simulation: Simulation) -> Figure:
-    angles = np.linspace(*np.radians(simulation.arm.hinge.range_deg), 81)
+    low, high = np.radians(simulation.arm.hinge.range_deg)
+    angles = np.linspace(low, high, 81)
     moments = {
         name: {level: table.moment(angles, level) / 1000 for level in _TOLD_ACTIVATIONS}
         for name, table in simulation.tables.items()

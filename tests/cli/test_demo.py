@@ -1,0 +1,34 @@
+"""The main job, end to end, in its smallest size."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+pytest.importorskip("ngsolve", reason="the demo needs NGSolve")
+pytest.importorskip("torch", reason="the demo needs torch")
+
+
+@pytest.mark.slow
+def test_the_demo_simulates_learns_and_reports(tmp_path):
+    command = [sys.executable, "-m", "myograph", "demo", "--preset", "tiny", "--out", str(tmp_path / "demo"), "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    result = json.loads(done.stdout)
+    assert set(result) == {"preset", "seconds", "nodes", "cases", "methods", "report"}
+    assert set(result["seconds"]) == {"simulate", "train", "total"}
+    assert set(result["methods"]) == {"do_nothing", "affine", "thin_plate_spline", "gen_8", "gen_343"}
+    for row in result["methods"].values():
+        assert set(row) == {"thesis", "strict", "off_grid"}
+        for errors in row.values():
+            assert 0 < errors["mean_mm"] <= errors["rmse_mm"] <= errors["max_mm"]
+            assert errors["mean_mm"] <= errors["p95_mm"] <= errors["max_mm"]
+    strict = {method: row["strict"]["mean_mm"] for method, row in result["methods"].items()}
+    assert min(strict["gen_8"], strict["gen_343"]) * 3 < strict["do_nothing"]
+    page = (tmp_path / "demo" / "report.html").read_text()
+    assert page.count("data:image/png;base64,") >= 8
+    assert "http" not in page.replace("http://www.w3.org", "")
+    assert {path.name for path in (tmp_path / "demo").iterdir()} == {
+        "dataset.zarr", "models", "report.html", "tables", "tensorboard",
+    }  # fmt: skip

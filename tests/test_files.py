@@ -1,0 +1,72 @@
+"""Files appear whole or not at all; work goes on side by side."""
+
+import os
+
+import pytest
+
+from myograph.errors import InputError
+from myograph.files import write_whole
+from myograph.processes import side_by_side
+
+
+def _square(number, tell):
+    tell(number)
+    return number**2, os.getpid()
+
+
+def _fail(number, tell):
+    if number == 2:
+        raise InputError("two is too many")
+    return number
+
+
+def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path):
+    path = tmp_path / "table.npz"
+    path.write_bytes(b"old")
+
+    def half(file):
+        file.write(b"ne")
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_whole(path, half)
+    assert path.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == ["table.npz"]
+
+
+def test_a_finished_write_replaces_the_old_file_and_others_may_read_it(tmp_path):
+    path = tmp_path / "deep" / "table.npz"
+    write_whole(path, lambda file: file.write(b"one"))
+    write_whole(path, lambda file: file.write(b"two"))
+    assert path.read_bytes() == b"two"
+    assert path.stat().st_mode & 0o044
+
+
+def test_a_folder_in_the_way_and_a_full_disk_are_named(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="choose another folder"):
+        write_whole(tmp_path / "file" / "x", lambda file: file.write(b""))
+
+    def full(file):
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(InputError, match="No space left on device"):
+        write_whole(tmp_path / "x", full)
+    assert [p.name for p in tmp_path.iterdir()] == ["file"]
+
+
+def test_results_come_in_order_and_news_arrives():
+    heard = []
+    results = side_by_side(_square, [(3,), (1,), (2,)], heard.append)
+    assert [value for value, _ in results] == [9, 1, 4]
+    assert sorted(heard) == [1, 2, 3]
+    assert os.getpid() not in {pid for _, pid in results}
+
+
+def test_the_error_of_a_task_is_raised_here():
+    with pytest.raises(InputError, match="two is too many"):
+        side_by_side(_fail, [(1,), (2,), (3,)], print)
+
+
+def test_no_tasks_have_no_results():
+    assert side_by_side(_square, [], print) == []
