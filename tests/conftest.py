@@ -2,4 +2,6 @@
 
 from jaxtyping import install_import_hook
 
-install_import_hook("myograph", "beartype.beartype")
+import tests.typechecked
+
+install_import_hook("myograph", f"{tests.typechecked.__name__}.checked")

@@ -8,6 +8,8 @@ import pytest
 
 from myograph.errors import InputError
 from myograph.learning.checkpoint import load_gen, save_gen
+from myograph.learning.config import NetworkConfig, TrainingConfig
+from myograph.learning.training import train_gen
 
 
 @pytest.fixture
@@ -29,6 +31,14 @@ def test_a_loaded_model_answers_exactly_as_the_saved_one(gen_8, folder, sampler,
     np.testing.assert_array_equal(
         loaded.predict(batch.sensors, batch.queries), gen_8.predict(batch.sensors, batch.queries)
     )
+
+
+def test_a_loaded_graph_is_joined_where_its_nodes_were_in_the_end(sampler, strict, tmp_path):
+    far = TrainingConfig(steps=5, batch=2, queries=16, node_learning_rate=0.1)
+    moved = train_gen(sampler, strict, NetworkConfig(nodes_per_axis=3), far)
+    save_gen(moved, tmp_path / "moved")
+    loaded = load_gen(tmp_path / "moved")
+    assert (loaded.network.adjacency.to_dense() == moved.network.adjacency.to_dense()).all()
 
 
 def test_a_loaded_model_knows_where_it_comes_from(gen_8, folder):
@@ -112,7 +122,7 @@ def test_nothing_is_ever_unpickled(folder, content):
     if content == "pickle":
         np.savez(path, nodes=np.array([{}], dtype=object))
     else:
-        path.write_bytes(b"PK but no archive")
+        path.write_bytes(b"PK\x03\x04 but no archive")
     rewrite(folder, lambda model: model["checksums"].update({path.name: hashlib.sha256(path.read_bytes()).hexdigest()}))
     with pytest.raises(InputError, match="not a file of plain arrays"):
         load_gen(folder)

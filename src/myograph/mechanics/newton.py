@@ -39,11 +39,9 @@ def newton(
     tangent = problem.tangent(vector)
     change = increment + tangent.solve(-(problem.residual(vector) + tangent.times(increment)))
     vector = vector + change
+    residual = problem.residual(vector)
     history: list[float] = []
     while True:
-        if not np.isfinite(vector).all():
-            return NewtonResult(vector, tuple(history), "the unknowns became infinite")
-        residual = problem.residual(vector)
         size, reaction = _norms(problem, residual)
         history.append(size / reaction)
         if not np.isfinite(size):
@@ -55,18 +53,20 @@ def newton(
         if len(history) > MOST_STEPS:
             return NewtonResult(vector, tuple(history), f"no convergence in {MOST_STEPS} steps")
         change = problem.tangent(vector).solve(-residual)
-        vector = vector + _damping(problem, vector, change, max(2 * size, 1e-2 * reaction)) * change
+        vector, residual = _damped(problem, vector, change, max(2 * size, 1e-2 * reaction))
 
 
-def _damping(problem: MuscleProblem, vector: np.ndarray, change: np.ndarray, bound: float) -> float:
-    """Largest of 1, 1/2, 1/4 ... whose residual stays under the bound; the smallest tried if none does."""
-    factor = 1.0
-    for _ in range(_MOST_HALVINGS):
-        size, _ = _norms(problem, problem.residual(vector + factor * change))
+def _damped(
+    problem: MuscleProblem, vector: np.ndarray, change: np.ndarray, bound: float
+) -> tuple[Float[np.ndarray, " unknowns"], Float[np.ndarray, " unknowns"]]:
+    """Unknowns and residual after 1, 1/2, 1/4 ... of the change: the first under the bound, or the smallest tried."""
+    for halvings in range(_MOST_HALVINGS + 1):
+        moved = vector + 0.5**halvings * change
+        residual = problem.residual(moved)
+        size, _ = _norms(problem, residual)
         if np.isfinite(size) and size <= bound:
             break
-        factor /= 2
-    return factor
+    return moved, residual
 
 
 def _norms(problem: MuscleProblem, residual: Float[np.ndarray, " unknowns"]) -> tuple[float, float]:

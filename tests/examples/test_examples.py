@@ -1,0 +1,27 @@
+"""Every example runs and gives the number it promises."""
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("ngsolve", reason="the examples need NGSolve")
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def _load(name):
+    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_moment_over_angle():
+    moments = _load("moment_over_angle").moments()
+    assert len(moments) == 6
+    assert moments[60, 0.0] == pytest.approx(6.8, abs=0.4)
+    assert moments[60, 0.5] == pytest.approx(12.3, abs=0.7)
+
+
+def test_every_example_has_a_test():
+    assert {path.stem for path in EXAMPLES.glob("*.py")} == {"moment_over_angle"}
