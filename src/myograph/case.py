@@ -7,7 +7,7 @@ of them answered.
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -86,6 +86,7 @@ class Solution:
     notes: tuple[str, ...] = field(default=())
 
 
+@runtime_checkable
 class Simulator(Protocol):
     """Anything that answers a Case with a Solution."""
 

@@ -34,15 +34,15 @@ def mlp(widths: list[int]) -> nn.Sequential:
     return nn.Sequential(*layers[:-1])
 
 
-def log_representer(
+def nearness(
     points: Float[Tensor, "batch points axes"], nodes: Float[Tensor, "nodes axes"], sharpness: Float[Tensor, ""]
 ) -> Float[Tensor, "batch points nodes"]:
-    """Logarithm of the share of each node in each point [-]; the shares of a point sum to one.
+    """exp(s) (|p|² - |p - x_n|²) [-]: its softmax over the nodes is the representer, as |p|² drops out.
 
-    |p|² is the same for all nodes and drops out of the softmax. A negative `sharpness` lets the farthest node win.
+    A negative `sharpness` exp(s) lets the farthest node win.
     """
-    nearness = 2 * points @ nodes.T - nodes.square().sum(dim=-1)
-    return torch.log_softmax(sharpness * nearness, dim=-1)
+    flat = torch.addmm(-sharpness * nodes.square().sum(dim=-1), 2 * sharpness * points.flatten(0, 1), nodes.T)
+    return flat.view(*points.shape[:2], len(nodes))
 
 
 class GraphElementNetwork(nn.Module):
@@ -94,10 +94,19 @@ class GraphElementNetwork(nn.Module):
         nodes = self.nodes.detach().double().numpy()
         self.adjacency = symmetric_matrix(normalised_adjacency(delaunay_edges(nodes), len(nodes)))
 
-    def log_shares(self, points: Float[Tensor, "batch points axes"]) -> Float[Tensor, "batch points nodes"]:
-        """Logarithm of the share of each graph node in each point [-]."""
+    def shares(self, points: Float[Tensor, "batch points axes"]) -> Float[Tensor, "batch points nodes"]:
+        """Share of each graph node in each point, the representer [-]; the shares of a point sum to one."""
+        return self._nearness(points).softmax(dim=-1)
+
+    def _nearness(self, points: Float[Tensor, "batch points axes"]) -> Float[Tensor, "batch points nodes"]:
         sign = -1.0 if self.config.legacy_sign else 1.0
-        return log_representer(points, self.nodes, sign * self.log_sharpness.exp())
+        return nearness(points, self.nodes, sign * self.log_sharpness.exp())
+
+    def _weights(self, points: Float[Tensor, "batch sensors axes"]) -> Float[Tensor, "batch sensors nodes"]:
+        """Weight of each sensor in each graph node [-]; for the mean in logarithms, as shares may underflow."""
+        if self.config.aggregation == "sum":
+            return self.shares(points)
+        return self._nearness(points).log_softmax(dim=-1).softmax(dim=1)
 
     def seen(self, points: Float[Tensor, "batch points axes"]) -> Float[Tensor, "batch points axes"]:
         """Coordinates as the MLPs see them [-]."""
@@ -111,11 +120,9 @@ class GraphElementNetwork(nn.Module):
     ) -> Float[Tensor, "batch queries outputs"]:
         """Answers at the queries; `points` are the places of the sensors, both in the unit box [-]."""
         encoded = self.encoder(torch.cat([self.seen(points), values], dim=-1))
-        log_shares = self.log_shares(points)
-        shares = log_shares.softmax(dim=1) if self.config.aggregation == "mean" else log_shares.exp()
-        state = torch.einsum("bsn,bsk->nbk", shares, encoded)
+        state = torch.einsum("bsn,bsk->nbk", self._weights(points), encoded)
         places = self.convolution.places(self.nodes, self.adjacency)
         for _ in range(self.config.message_rounds):
             state = self.norm(state + self.convolution(state, places, self.adjacency))
-        at_queries = torch.einsum("bqn,nbk->bqk", self.log_shares(queries).exp(), state)
+        at_queries = torch.einsum("bqn,nbk->bqk", self.shares(queries), state)
         return self.decoder(torch.cat([at_queries, self.seen(queries)], dim=-1))

@@ -1,6 +1,7 @@
 """Figures of the demo's report."""
 
 import numpy as np
+from jaxtyping import Float
 
 from myograph.case import Solution
 from myograph.cli.arm import bone_surfaces
@@ -26,6 +27,7 @@ from myograph.view import (
 from myograph.view.palette import MUSCLE_COLOURS
 
 _TOLD_ACTIVATIONS = (0.0, 0.5, 1.0)
+_SMOOTHED = 10
 
 
 def figures(simulation: Simulation, comparison: Comparison) -> tuple[Figure, ...]:
@@ -111,10 +113,18 @@ def _nodes_figure(comparison: Comparison) -> Figure:
 
 def _training_figure(comparison: Comparison) -> Figure:
     runs = {
-        f"{network.name}, {protocol}": (np.arange(1, len(network.record.rmse) + 1), network.record.rmse)
+        f"{network.name}, {protocol}": _smoothed(network.record.rmse)
         for (_, protocol), network in sorted(comparison.networks.items())
     }
-    return Figure("Error of the training batches over the steps.", draw_training(runs), "Training curves")
+    caption = f"Error of the training batches over the steps, each point the mean of {_SMOOTHED} steps."
+    return Figure(caption, draw_training(runs), "Training curves")
+
+
+def _smoothed(rmse: Float[np.ndarray, " steps"]) -> tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]:
+    """Middle step and mean error [mm] of every few steps."""
+    blocks = len(rmse) // _SMOOTHED
+    means = rmse[: blocks * _SMOOTHED].reshape(blocks, _SMOOTHED).mean(axis=1)
+    return (np.arange(blocks) + 0.5) * _SMOOTHED, means
 
 
 def _corner(simulation: Simulation, level: float) -> Solution:

@@ -29,7 +29,7 @@ SENSORS = 9
 SEED = 0
 MUSCLE = "biceps"
 SIZES = {
-    "tiny": DemoSize(angles=9, activations=5, off_grid=12, steps={2: 800, 7: 160}),
+    "tiny": DemoSize(angles=9, activations=5, off_grid=12, steps={2: 500, 7: 300}),
     "quick": DemoSize(angles=11, activations=5, off_grid=24, steps={2: 6000, 7: 2500}),
     "thesis": DemoSize(angles=11, activations=5, off_grid=32, steps={2: 12000, 7: 8000}),
 }
