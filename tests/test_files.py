@@ -5,7 +5,7 @@ import os
 import pytest
 
 from myograph.errors import InputError
-from myograph.files import write_whole
+from myograph.files import write_whole, write_whole_folder
 from myograph.processes import side_by_side
 
 
@@ -53,6 +53,35 @@ def test_a_folder_in_the_way_and_a_full_disk_are_named(tmp_path):
     with pytest.raises(InputError, match="No space left on device"):
         write_whole(tmp_path / "x", full)
     assert [p.name for p in tmp_path.iterdir()] == ["file"]
+
+
+def _folder_with(text):
+    def write(folder):
+        folder.mkdir()
+        (folder / "content").write_text(text)
+
+    return write
+
+
+def test_a_folder_is_replaced_as_a_whole(tmp_path):
+    write_whole_folder(tmp_path / "model", _folder_with("old"))
+    write_whole_folder(tmp_path / "model", _folder_with("new"))
+    assert (tmp_path / "model" / "content").read_text() == "new"
+    assert [p.name for p in tmp_path.iterdir()] == ["model"]
+
+
+def test_a_failed_folder_leaves_the_old_one_even_where_the_last_rename_fails(tmp_path):
+    write_whole_folder(tmp_path / "model", _folder_with("old"))
+
+    def broken(folder):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_whole_folder(tmp_path / "model", broken)
+    with pytest.raises(InputError, match="cannot be written"):
+        write_whole_folder(tmp_path / "model", lambda folder: None)
+    assert (tmp_path / "model" / "content").read_text() == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["model"]
 
 
 def test_results_come_in_order_and_news_arrives():

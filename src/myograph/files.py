@@ -1,9 +1,10 @@
-"""Files appear whole or not at all: written beside their place under a temporary name, then renamed.
+"""Files and folders appear whole or not at all: written beside their place under a temporary name, then renamed.
 
 An interrupt or a full disk leaves the old file as it was and nothing else.
 """
 
 import os
+import shutil
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -18,7 +19,7 @@ def write_whole(path: Path, write: Callable[[BinaryIO], object]) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(prefix=f".{path.name}-", dir=path.parent)
     except OSError as problem:
-        raise InputError(f"{path}: cannot be written ({problem.strerror}); choose another folder") from None
+        raise _refusal(path, problem) from None
     aside = Path(name)
     try:
         with os.fdopen(handle, "wb") as file:
@@ -26,11 +27,41 @@ def write_whole(path: Path, write: Callable[[BinaryIO], object]) -> None:
         aside.chmod(0o666 & ~_umask())
         aside.replace(path)
     except OSError as problem:
-        raise InputError(
-            f"{path}: cannot be written ({problem.strerror}); free some room or choose another folder"
-        ) from None
+        raise _refusal(path, problem) from None
     finally:
         aside.unlink(missing_ok=True)
+
+
+def write_whole_folder(path: Path, write: Callable[[Path], object]) -> None:
+    """Let `write` make a new folder that then takes the place of `path`; raise InputError where it cannot."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        aside = Path(tempfile.mkdtemp(prefix=f".{path.name}-", dir=path.parent))
+    except OSError as problem:
+        raise _refusal(path, problem) from None
+    try:
+        write(aside / "new")
+        _swap(path, aside)
+    except OSError as problem:
+        raise _refusal(path, problem) from None
+    finally:
+        shutil.rmtree(aside, ignore_errors=True)
+
+
+def _swap(path: Path, aside: Path) -> None:
+    """Put the new folder in place; where that fails, put the old one back."""
+    if path.exists():
+        path.rename(aside / "old")
+    try:
+        (aside / "new").rename(path)
+    except BaseException:
+        if (aside / "old").exists():
+            (aside / "old").rename(path)
+        raise
+
+
+def _refusal(path: Path, problem: OSError) -> InputError:
+    return InputError(f"{path}: cannot be written ({problem.strerror}); free some room or choose another folder")
 
 
 def _umask() -> int:

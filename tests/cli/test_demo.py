@@ -3,14 +3,13 @@
 import json
 import subprocess
 import sys
+from importlib.util import find_spec
 
 import pytest
 
-pytest.importorskip("ngsolve", reason="the demo needs NGSolve")
-pytest.importorskip("torch", reason="the demo needs torch")
-
 
 @pytest.mark.slow
+@pytest.mark.skipif(not (find_spec("ngsolve") and find_spec("torch")), reason="the demo needs NGSolve and torch")
 def test_the_demo_simulates_learns_and_reports(tmp_path):
     command = [sys.executable, "-m", "myograph", "demo", "--preset", "tiny", "--out", str(tmp_path / "demo"), "--json"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)

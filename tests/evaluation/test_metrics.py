@@ -12,6 +12,8 @@ from myograph.evaluation import NodeErrors, evaluate, node_errors, summarise
 class Shift:
     """Predicts that every query moves by the same vector [mm]."""
 
+    name = "shift"
+
     def __init__(self, *vector: float) -> None:
         self.vector = np.array(vector)
 

@@ -16,8 +16,6 @@ Dimensions and variables (units in the attributes, from `myograph.fields`):
 Attributes: `muscle`, `simulator`, `preset`, `myograph_version`, `arm_checksum`, `schema`.
 """
 
-import shutil
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -28,6 +26,7 @@ from jaxtyping import Float, Int
 from myograph.case import MUSCLES, Solution
 from myograph.errors import InputError
 from myograph.fields import AXES, FIELDS, VOIGT
+from myograph.files import write_whole_folder
 
 SCHEMA = 1
 NODE_FIELDS = ("position", "cauchy_stress", "von_mises", "fibre_stretch", "pressure")
@@ -72,19 +71,9 @@ def _variable(name: str, dimensions: tuple[str, ...], values: np.ndarray) -> xr.
 
 
 def save_dataset(dataset: xr.Dataset, path: Path) -> None:
-    """Write the dataset as a Zarr folder: beside its place first, then renamed, so that it is never half there."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        aside = Path(tempfile.mkdtemp(prefix=f".{path.name}-", dir=path.parent))
-    except OSError as problem:
-        raise InputError(f"{path}: cannot be written: {problem.strerror}") from None
-    try:
-        _texts_as(dataset, object).to_zarr(aside / "new", mode="w", consolidated=False)
-        if path.exists():
-            path.rename(aside / "old")
-        (aside / "new").rename(path)
-    finally:
-        shutil.rmtree(aside, ignore_errors=True)
+    """Write the dataset as a Zarr folder, whole or not at all; raise InputError where it cannot be written."""
+    stored = _texts_as(dataset, object)
+    write_whole_folder(path, lambda aside: stored.to_zarr(aside, mode="w", consolidated=False))
 
 
 def load_dataset(path: Path) -> xr.Dataset:

@@ -1,6 +1,6 @@
 """How well a prediction meets the truth: errors in mm, and the report that a person reads."""
 
-from myograph.evaluation.metrics import ErrorSummary, NodeErrors, Predictor, evaluate, node_errors, summarise
+from myograph.evaluation.metrics import ErrorSummary, NodeErrors, evaluate, node_errors, summarise
 from myograph.evaluation.page import write_report
 from myograph.evaluation.report import Figure, Report
 
@@ -8,7 +8,6 @@ __all__ = [
     "ErrorSummary",
     "Figure",
     "NodeErrors",
-    "Predictor",
     "Report",
     "evaluate",
     "node_errors",

@@ -10,11 +10,11 @@ muscle is: a rigid motion of everything changes no figure.
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float, Float32
 
+from myograph.ensemble.predictor import Predictor
 from myograph.errors import InputError
 
 
@@ -64,17 +64,6 @@ class NodeErrors:
             max_mm=float(self.errors.max()),
             relative=mean / self.mean_displacement,
         )
-
-
-@runtime_checkable
-class Predictor(Protocol):
-    """Anything that moves queries: a network, a baseline."""
-
-    def predict(
-        self, sensors: Float[np.ndarray, "batch sensors 6"], queries: Float[np.ndarray, "batch queries 3"]
-    ) -> Float[np.ndarray, "batch queries 3"]:
-        """Positions [mm] in the target state of queries at positions in the initial state, given (S, T) at sensors."""
-        ...
 
 
 Samples = tuple[

@@ -11,8 +11,9 @@ import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import RBFInterpolator
 
+from myograph.ensemble.predictor import Predictor
 from myograph.errors import InputError
-from myograph.learning.predictor import Predictor, check_samples
+from myograph.learning.samples import check_samples
 
 AFFINE_SENSORS = 4
 """Points that an affine map of space needs."""

@@ -9,8 +9,6 @@ Reading checks the SHA-256 of every file, model.json included, and the shapes of
 
 import hashlib
 import json
-import shutil
-import tempfile
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -22,6 +20,7 @@ import torch
 from myograph.config import Model, parse
 from myograph.ensemble.pairs import Source
 from myograph.errors import InputError
+from myograph.files import write_whole_folder
 from myograph.learning.config import NetworkConfig, TrainingConfig
 from myograph.learning.gen import VALUES, Gen, TrainingRecord
 from myograph.learning.network import GraphElementNetwork
@@ -53,18 +52,7 @@ def save_gen(gen: Gen, folder: Path) -> None:
     """
     if folder.exists() and not (folder / "model.json").is_file():
         raise InputError(f"{folder}: expected a saved model or nothing, got something else; choose another place")
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        aside = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
-    except OSError as problem:
-        raise InputError(f"{folder}: cannot be written: {problem.strerror}") from None
-    try:
-        _write(gen, aside / "new")
-        if folder.exists():
-            folder.rename(aside / "old")
-        (aside / "new").rename(folder)
-    finally:
-        shutil.rmtree(aside, ignore_errors=True)
+    write_whole_folder(folder, lambda aside: _write(gen, aside))
 
 
 def load_gen(folder: Path) -> Gen:

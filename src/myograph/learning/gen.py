@@ -11,7 +11,7 @@ from myograph.ensemble.pairs import Batch, Source
 from myograph.errors import InputError
 from myograph.learning.config import TrainingConfig
 from myograph.learning.network import GraphElementNetwork
-from myograph.learning.predictor import check_samples
+from myograph.learning.samples import check_samples
 from myograph.learning.scaling import Scaling
 
 VALUES = 3
@@ -44,7 +44,7 @@ class TrainingRecord:
 
 @dataclass(frozen=True)
 class Gen:
-    """A trained network; a `myograph.learning.predictor.Predictor`.
+    """A trained network; a `myograph.ensemble.predictor.Predictor`.
 
     Parameters
     ----------

@@ -65,8 +65,13 @@ class MuscleProblem:
         return int(self.unknowns.ndof)
 
     def _material_site(self) -> Site:
-        fraction = 1 - tendon_share(self.arm, self.name, self.hexahedra)
-        return Site(fibre_direction(self.space), self.space.field(fraction), self.space.field(self.hexahedra.area))
+        """Fibre, fraction and area between the nodes too.
+
+        Quadratics overshoot there: the fraction is clamped, the area interpolated by its logarithm.
+        """
+        fraction = self.space.field(1 - tendon_share(self.arm, self.name, self.hexahedra))
+        clamped = ngs.IfPos(fraction, ngs.IfPos(fraction - 1, 1.0, fraction), 0.0)
+        return Site(fibre_direction(self.space), clamped, ngs.exp(self.space.field(np.log(self.hexahedra.area))))
 
     def _build_forms(self, native: bool) -> None:
         (u, p), _ = self.unknowns.TnT()
@@ -187,8 +192,7 @@ def _at_integration_points(site: Site, rule_space: IntegrationRuleSpace) -> Site
         return values
 
     fibre = ngs.CoefficientFunction(tuple(stored(site.fibre[k]) for k in range(3)))
-    fraction = stored(ngs.IfPos(site.fraction, ngs.IfPos(site.fraction - 1, 1.0, site.fraction), 0.0))
-    return Site(fibre, fraction, stored(site.area))
+    return Site(fibre, stored(site.fraction), stored(site.area))
 
 
 def _applied(form: ngs.BilinearForm, vector: ngs.BaseVector) -> np.ndarray:

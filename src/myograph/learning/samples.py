@@ -1,34 +1,9 @@
-"""What every method that answers from sensors can do, and the check of what it is given."""
-
-from typing import Protocol
+"""The check of what a method that answers from sensors is given."""
 
 import numpy as np
 from jaxtyping import Float
 
 from myograph.errors import InputError
-
-
-class Predictor(Protocol):
-    """Answers where points of a muscle go from where a few of its nodes went."""
-
-    @property
-    def name(self) -> str:
-        """As it stands in tables."""
-        ...
-
-    def predict(
-        self, sensors: Float[np.ndarray, "batch sensors 6"], queries: Float[np.ndarray, "batch queries 3"]
-    ) -> Float[np.ndarray, "batch queries 3"]:
-        """Positions T in the target state [mm] of the points that sit at `queries` in the initial state.
-
-        Parameters
-        ----------
-        sensors
-            Positions (S, T) of the sensors in both states [mm].
-        queries
-            Positions S of the asked points in the initial state [mm].
-        """
-        ...
 
 
 def check_samples(
