@@ -1,6 +1,10 @@
 """Files appear whole or not at all; work goes on side by side."""
 
 import os
+import subprocess
+import sys
+import time
+from pathlib import Path
 
 import pytest
 
@@ -99,3 +103,34 @@ def test_the_error_of_a_task_is_raised_here():
 
 def test_no_tasks_have_no_results():
     assert side_by_side(_square, [], print) == []
+
+
+PARENT = """
+import time
+from myograph.processes import side_by_side
+from tests.test_files import _sleep
+
+if __name__ == "__main__":
+    side_by_side(_sleep, [(60.0,)], lambda pid: print(pid, flush=True))
+"""
+
+
+def _sleep(seconds, tell):
+    tell(os.getpid())
+    time.sleep(seconds)
+
+
+@pytest.mark.skipif(not Path("/proc").exists(), reason="looks at Linux's table of processes")
+def test_workers_end_when_their_parent_is_killed(tmp_path):
+    (tmp_path / "parent.py").write_text(PARENT)
+    root = Path(__file__).parents[1]
+    environment = {**os.environ, "PYTHONPATH": str(root)}
+    command = [sys.executable, str(tmp_path / "parent.py")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as parent:
+        worker = int(parent.stdout.readline())
+        parent.kill()
+    for _ in range(100):
+        if not Path(f"/proc/{worker}").exists():
+            return
+        time.sleep(0.1)
+    raise AssertionError("the worker outlived its parent by ten seconds")

@@ -8,6 +8,7 @@ import multiprocessing
 import os
 import queue
 import signal
+import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from typing import Any, TypeVar
@@ -53,6 +54,14 @@ def _follow(futures: Sequence[Future], news: Any, on_news: News) -> None:
 
 
 def _prepare() -> None:
-    """One thread for each process; the interrupt is the parent's business."""
+    """One thread of computing for each process; the interrupt is the parent's business, and its end is ours."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ["OMP_NUM_THREADS"] = "1"
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+    os._exit(1)
