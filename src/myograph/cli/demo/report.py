@@ -14,8 +14,8 @@ from myograph.evaluation import Report, write_report
 
 _LIMITS = (
     "The muscles act on each other through the elbow's angle only: they do not touch each other.",
-    "Forces of biceps and triceps follow a published two-muscle model, on its line of action to 3 and 8 per cent; those"
-    " of the other three are scaled by published peak forces, not measured.",
+    "Forces of biceps and triceps miss those of a published two-muscle model by about 5 and 17 per cent; those of the"
+    " other three are scaled by published peak forces, not measured.",
     "Cases come from tables of finite-element states with smooth interpolation in between, not from one solve each.",
     "The networks are the thesis's, 5,860 parameters, with its traps set right; they answer with displacements, and a"
     " node of the graph takes the mean of the sensors' shares. As there, queries are named by where they start.",
