@@ -60,12 +60,15 @@ def _damped(
     problem: MuscleProblem, vector: np.ndarray, change: np.ndarray, bound: float
 ) -> tuple[Float[np.ndarray, " unknowns"], Float[np.ndarray, " unknowns"]]:
     """Unknowns and residual after 1, 1/2, 1/4 ... of the change: the first under the bound, or the smallest tried."""
-    for halvings in range(_MOST_HALVINGS + 1):
-        moved = vector + 0.5**halvings * change
-        residual = problem.residual(moved)
+    moved = vector + change
+    residual = problem.residual(moved)
+    for _ in range(_MOST_HALVINGS):
         size, _ = _norms(problem, residual)
         if np.isfinite(size) and size <= bound:
             break
+        change = 0.5 * change
+        moved = vector + change
+        residual = problem.residual(moved)
     return moved, residual
 
 
