@@ -7,6 +7,11 @@ from importlib.util import find_spec
 
 import pytest
 
+from myograph.anatomy.load import built_in_arm
+from myograph.cli.demo import run_demo
+from myograph.cli.progress import Steps
+from myograph.errors import MissingPackageError
+
 
 @pytest.mark.slow
 @pytest.mark.skipif(not (find_spec("ngsolve") and find_spec("torch")), reason="the demo needs NGSolve and torch")
@@ -31,3 +36,11 @@ def test_the_demo_simulates_learns_and_reports(tmp_path):
     assert {path.name for path in (tmp_path / "demo").iterdir()} == {
         "dataset.zarr", "models", "report.html", "tables", "tensorboard",
     }  # fmt: skip
+
+
+@pytest.mark.parametrize("missing", ["ngsolve", "torch", "tensorboard", "matplotlib"])
+def test_a_missing_package_is_named_before_anything_is_computed(missing, tmp_path, monkeypatch):
+    monkeypatch.setattr("myograph.cli.demo.verb.find_spec", lambda name: None if name == missing else object())
+    with pytest.raises(MissingPackageError, match=f"the demo needs the package '{missing}'.*myograph\\[all\\]"):
+        run_demo(built_in_arm(), "tiny", tmp_path / "demo", Steps())
+    assert not (tmp_path / "demo").exists()

@@ -4,6 +4,7 @@ import shlex
 import sys
 import time
 from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -16,6 +17,7 @@ from myograph.cli.options import ArmFile, Json, Preset, print_json, read_arm
 from myograph.cli.progress import Steps
 from myograph.errors import InputError, MissingPackageError
 
+_NEEDED = ("ngsolve", "torch", "tensorboard", "matplotlib")
 _VERSIONS = ("myograph", "ngsolve", "torch", "numpy", "scipy")
 
 
@@ -50,13 +52,12 @@ def run_demo(arm: Arm, preset: str, out: Path, steps: Steps) -> dict[str, Any]:
     """
     started = time.perf_counter()
     size = demo_size(preset)
+    _check_installed()
     _check_writable(out)
-    try:
-        from myograph.cli.demo.networks import compare, learn
-        from myograph.cli.demo.report import write_demo_report
-        from myograph.cli.demo.simulation import simulate
-    except ModuleNotFoundError as missing:
-        raise MissingPackageError(str(missing.name), "all", "the demo") from None
+    from myograph.cli.demo.networks import compare, learn
+    from myograph.cli.demo.report import write_demo_report
+    from myograph.cli.demo.simulation import simulate
+
     simulation = simulate(arm, preset, size, out, steps)
     simulated = time.perf_counter() - started
     networks = learn(simulation.dataset, size, out, steps)
@@ -88,6 +89,12 @@ def run_demo(arm: Arm, preset: str, out: Path, steps: Steps) -> dict[str, Any]:
         },
         "report": str(report),
     }
+
+
+def _check_installed() -> None:
+    for package in _NEEDED:
+        if find_spec(package) is None:
+            raise MissingPackageError(package, "all", "the demo")
 
 
 def _check_writable(out: Path) -> None:
