@@ -7,7 +7,7 @@ from ngsolve.meshes import MakeStructured3DMesh
 from scipy.integrate import quad
 
 from myograph.anatomy.load import built_in_arm
-from myograph.mechanics.law import MuscleLaw, Site, belly_energy, positive, tendon_energy
+from myograph.mechanics.law import MuscleLaw, Site, belly_energy, matrix_energy, positive, tendon_energy
 
 MESH = MakeStructured3DMesh(hexes=True, nx=1, ny=1, nz=1)
 POINT = MESH(0.3, 0.4, 0.5)
@@ -80,6 +80,18 @@ def test_the_volume_term_pulls_with_the_pressure():
     energy = law.energy(ngs.CoefficientFunction(tuple(F.ravel()), dims=(3, 3)), pressure, site)
     slope = float(_value(energy.Diff(pressure)))
     assert slope == pytest.approx(np.linalg.det(F) - 1 - 0.4 / MUSCLE.matrix.bulk, rel=1e-10)
+
+
+def test_the_matrix_does_not_feel_a_change_of_volume():
+    """I1bar and I2bar are isochoric: the energy of s F is that of F."""
+    site = Site(ngs.CoefficientFunction((1.0, 0.0, 0.0)), _number(0.5), _number(500.0))
+
+    def energy(factor):
+        F = factor * _generic_deformation()
+        elastic = ngs.CoefficientFunction(tuple(map(float, F.ravel())), dims=(3, 3))
+        return float(_value(matrix_energy(elastic, _number(np.linalg.det(F)), MUSCLE.matrix, site)))
+
+    assert energy(1.2) == pytest.approx(energy(1.0), rel=1e-12)
 
 
 @pytest.mark.parametrize("exponent", [1.0, 1.273, 1.9])
