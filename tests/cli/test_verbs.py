@@ -134,7 +134,11 @@ def test_an_interrupt_leaves_no_broken_file(tmp_path):
     out = tmp_path / "demo"
     command = [sys.executable, "-m", "myograph", "demo", "--preset", "tiny", "--out", str(out)]
     run = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
-    time.sleep(8)
+    for _ in range(600):
+        if out.exists():
+            break
+        time.sleep(0.1)
+    time.sleep(2)
     os.kill(run.pid, signal.SIGINT)
     _, said = run.communicate(timeout=30)
     assert run.returncode == 130
