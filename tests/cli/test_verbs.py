@@ -138,7 +138,7 @@ def test_an_interrupt_leaves_no_broken_file(tmp_path):
         if out.exists():
             break
         time.sleep(0.1)
-    time.sleep(2)
+    time.sleep(6)
     os.kill(run.pid, signal.SIGINT)
     _, said = run.communicate(timeout=30)
     assert run.returncode == 130

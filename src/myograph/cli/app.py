@@ -4,6 +4,7 @@ Exit codes: 0 done, 2 the caller's mistake, 3 a method failed, 130 interrupted. 
 error, or one line per wrong key of a file; never a traceback for what people can mend.
 """
 
+import os
 import sys
 from typing import Annotated
 
@@ -58,8 +59,15 @@ def main() -> None:
     except (KeyboardInterrupt, typer.Abort):
         code = INTERRUPTED
     if code == INTERRUPTED:
-        _say("interrupted; nothing is half-written")
+        _leave_interrupted()
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _leave_interrupted() -> None:
+    """Leave at once: what Python does on its way out can be interrupted too, and would change the exit code."""
+    _say("interrupted; nothing is half-written")
+    sys.stdout.flush()
+    os._exit(INTERRUPTED)
 
 
 def _say(message: str) -> None:
