@@ -130,10 +130,16 @@ def test_help_names_every_option(verb):
     assert "--help" in done.stdout
 
 
+def _hears_interrupts():
+    """Shells let what they start in the background ignore interrupts; here they count."""
+    os.setsid()
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def test_an_interrupt_leaves_no_broken_file(tmp_path):
     out = tmp_path / "demo"
     command = [sys.executable, "-m", "myograph", "demo", "--preset", "tiny", "--out", str(out)]
-    run = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    run = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, preexec_fn=_hears_interrupts)
     for _ in range(600):
         if out.exists():
             break
