@@ -1,1 +1,1 @@
-"""Room."""
+"""The finite-element truth of one muscle; the only room that imports ngsolve."""

@@ -129,12 +129,6 @@ class MuscleProblem:
         moved = [self.space.to_nodes @ vector[k * size : (k + 1) * size] for k in range(3)]
         return self.hexahedra.points + np.stack(moved, axis=1)
 
-    def deformation(self, vector: Float[np.ndarray, " unknowns"]) -> ngs.CoefficientFunction:
-        """Deformation gradient of the given unknowns, as something that can be evaluated anywhere."""
-        function = ngs.GridFunction(self.unknowns)
-        function.vec.FV().NumPy()[:] = vector
-        return ngs.Id(3) + ngs.Grad(function.components[0])
-
     def _insertion_places(self, flexion: float) -> Float[np.ndarray, "face 3"]:
         face = self.hexahedra.points[self.hexahedra.end_nodes("insertion")]
         centre = face.mean(axis=0)

@@ -12,7 +12,7 @@ from myograph.evaluation import Figure
 from myograph.learning.mesh import delaunay_edges
 from myograph.mesh.presets import muscle_mesh, resolution
 from myograph.mesh.tissue import tendon_share
-from myograph.units import degrees
+from myograph.units import NEWTON_MM_PER_NEWTON_METRE, degrees
 from myograph.view import (
     NetworkNodes,
     Surface,
@@ -63,7 +63,7 @@ def _moment_figure(simulation: Simulation) -> Figure:
     low, high = np.radians(simulation.arm.hinge.range_deg)
     angles = np.linspace(low, high, 81)
     moments = {
-        name: {level: table.moment(angles, level) / 1000 for level in _TOLD_ACTIVATIONS}
+        name: {level: table.moment(angles, level) / NEWTON_MM_PER_NEWTON_METRE for level in _TOLD_ACTIVATIONS}
         for name, table in simulation.tables.items()
     }
     caption = "Moment of each muscle about the elbow over its angle, from the tables of finite-element states."
