@@ -52,7 +52,37 @@ def test_an_unknown_key_names_the_near_one():
 
 
 def test_a_negative_stiffness_is_refused_by_name():
-    _refused(_data(muscles__biceps__matrix__c1=-1.0), "muscles.biceps.matrix.c1")
+    _refused(_data(muscles__biceps__belly__c1=-1.0), "muscles.biceps.belly.gauss.c1")
+
+
+def test_a_bulk_modulus_too_low_for_the_matrix_is_refused_with_what_is_needed_and_why():
+    message = r"muscles\.biceps\.belly\.gauss: .*at least 100 times the shear modulus of 0\.016 MPa.*1\.6 MPa or more"
+    with pytest.raises(InputError, match=message):
+        parse(_data(muscles__biceps__belly__bulk=1.0), Arm, "arm.toml")
+
+
+def test_a_bulk_modulus_too_low_for_the_tendon_is_refused_with_what_is_needed():
+    message = r"holds in the tendon, too; expected at least 20 times .* 2 MPa.* got 30, give 40 MPa or more"
+    with pytest.raises(InputError, match=message):
+        parse(_data(muscles__biceps__belly__bulk=30.0), Arm, "arm.toml")
+
+
+@pytest.mark.parametrize("prestretch", [0.9, 2.5])
+def test_a_pre_stretch_of_no_living_muscle_is_refused(prestretch):
+    _refused(_data(muscles__biceps__tissue__prestretch=prestretch), "expected 1 (none) to 2, the fibre's length")
+
+
+def test_an_unknown_law_is_refused_with_the_known_ones():
+    _refused(_data(muscles__biceps__belly__law="gaus"), "'gauss', ")
+
+
+def test_a_parameter_of_another_law_names_the_near_one():
+    _refused(_data(muscles__biceps__tendon__moduls=3.0), "did you mean 'modulus'?")
+
+
+def test_muscles_are_as_strong_per_cross_section_as_in_print():
+    """0.2 to 0.35 MPa: peak forces differ by the physiological cross-section, or nearly."""
+    assert all(0.2 <= muscle.belly.peak_stress <= 0.35 for muscle in built_in_arm().muscles.values())
 
 
 def test_a_missing_muscle_is_named():

@@ -23,5 +23,10 @@ def test_moment_over_angle():
     assert moments[60, 0.5] == pytest.approx(14.01, abs=0.05)
 
 
+def test_specimen():
+    """At a stretch of 1.2, x = 1.2 / 1.07:  σ = l / L_ofl sigma_max (P1 (exp(P2 (x - 1)) - 1) + 1 - 4 (1 - x)²)."""
+    assert _load("specimen").stresses(1.0)[3] == pytest.approx(0.3372, rel=5e-3)
+
+
 def test_every_example_has_a_test():
-    assert {path.stem for path in EXAMPLES.glob("*.py")} == {"moment_over_angle"}
+    assert {path.stem for path in EXAMPLES.glob("*.py")} == {"moment_over_angle", "specimen"}

@@ -5,7 +5,7 @@ import pytest
 
 from myograph.anatomy.load import built_in_arm
 from myograph.case import MUSCLES
-from myograph.limb.table import MuscleTable, regular_grid, table_key
+from myograph.limb.table import MuscleTable, Record, regular_grid, table_key
 from myograph.limb.table_arm import TableArm
 
 STRENGTH = {"brachioradialis": 5e3, "brachialis": 8e3, "biceps": 2e4, "anconeus": -1e3, "triceps": -2e4}
@@ -27,7 +27,9 @@ def formula_table(arm, name):
     moments = STRENGTH[name] * (0.2 + activation) * (2 - angle if STRENGTH[name] > 0 else 1)
     key = table_key(arm, name, "tiny", grid)
     quads = np.array([[0, 1, 2, 3]])
-    return MuscleTable(name, key, grid, moments, fields, reference, quads, np.ones(angle.shape, dtype=np.int64))
+    none = np.zeros(angle.shape)
+    record = Record(np.ones(angle.shape, dtype=np.int64), none, none + 1, none, np.full(angle.shape, ""))
+    return MuscleTable(name, key, grid, moments, fields, reference, quads, record)
 
 
 @pytest.fixture

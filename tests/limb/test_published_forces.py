@@ -17,18 +17,19 @@ SAMPLES = ROOT / "stuttgart" / "sparse_grid_clenshaw_curtis.csv"
 
 @pytest.mark.reference
 @pytest.mark.skipif(not SAMPLES.exists(), reason="the reference data are not here; set MYOGRAPH_REFERENCE_DATA")
-@pytest.mark.parametrize(("name", "column", "largest"), [("biceps", 3, 0.07), ("triceps", 2, 0.20)])
-def test_forces_stay_near_the_published_ones(name, column, largest):
-    """Relative L2 error over the samples inside our range of angles; force = moment / moment arm."""
+@pytest.mark.parametrize(("name", "column"), [("biceps", 3), ("triceps", 2)])
+def test_forces_on_samples_that_the_fit_did_not_see_are_within_five_per_cent(name, column):
+    """Relative L2 error from 10 to 150 degrees; force = moment / moment arm; every other sample was fitted."""
     pytest.importorskip("ngsolve", reason="the mechanics need NGSolve")
     arm = built_in_arm()
     samples = np.loadtxt(SAMPLES)
-    low, high = arm.hinge.range_deg
-    samples = samples[(samples[:, 0] >= low) & (samples[:, 0] <= high)]
-    table = tabulate_muscle(arm, name, "tiny", regular_grid(arm, 6, 3), lambda _: None)
+    samples = samples[np.lexsort((samples[:, 1], samples[:, 0]))][1::2]
+    table = tabulate_muscle(arm, name, "tiny", regular_grid(arm, 9, 3), lambda _: None)
     line = line_of_action(arm.muscles[name], arm.hinge.frame())
     angles = np.radians(samples[:, 0])
     moments = np.array([table.moment(angles[[k]], samples[k, 1])[0] for k in range(len(samples))])
     forces = moments / [line.moment_arm(angle - arm.reference_angle) for angle in angles]
     published = np.abs(samples[:, column])
-    assert np.linalg.norm(forces - published) < largest * np.linalg.norm(published)
+    error = np.linalg.norm(forces - published) / np.linalg.norm(published)
+    assert error < 0.05
+    assert error == pytest.approx(arm.muscles[name].calibration.error_unseen, abs=0.01)

@@ -1,10 +1,12 @@
 """Tables of muscles: on disk, and made from finite elements."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from myograph.anatomy.load import built_in_arm
-from myograph.errors import InputError
+from myograph.errors import InputError, NotConvergedError
 from myograph.limb.table import Grid, load_table, regular_grid, save_table, table_key
 from tests.limb.conftest import formula_table
 
@@ -71,3 +73,15 @@ def test_tabulated_finite_elements_meet_a_solve_between_the_grid_points(tmp_path
     assert error.mean() < 0.05
     assert error.max() < 0.5
     assert table.moment(np.array([angle]), activation)[0] == pytest.approx(truth.moment, rel=2e-3)
+
+
+def test_a_failed_state_is_kept_with_its_reason_and_the_table_does_not_pretend(tmp_path):
+    table = formula_table(built_in_arm(), "biceps")
+    reasons = table.record.failures.astype("U40")
+    reasons[2, 1] = "an element turned inside out"
+    failed = replace(table, record=replace(table.record, failures=reasons))
+    save_table(failed, tmp_path / "biceps.npz")
+    back = load_table(tmp_path / "biceps.npz", table.key)
+    assert back.record.failures[2, 1] == "an element turned inside out"
+    with pytest.raises(NotConvergedError, match="biceps: 1 of 24 states failed; the first: an element"):
+        back.moment(np.array([1.0]), 0.5)

@@ -41,18 +41,20 @@ class _RampedLaw(MuscleLaw):
 @pytest.mark.parametrize("area", [400.0, 2000.0])
 def test_an_active_block_rests_where_fibre_and_matrix_balance(area):
     """Incompressible, stretches l, 1/√l, 1/√l:  dW/dl = 2 c1 (l - 1/l²) + 2 c2 (1 - 1/l³) + T(l)/A = 0."""
-    fibre = MUSCLE.fibre.model_copy(update={"active_force": 30.0, "passive_force": 1e-9, "prestretch": 1.0})
-    matrix = MUSCLE.matrix.model_copy(update={"bulk": 1e6, "full_area": 1e-3, "c1": 0.02, "c2": 0.005})
-    law = _RampedLaw(fibre, MUSCLE.tendons, matrix, ngs.Parameter(0.0), ngs.CoefficientFunction(0.0))
+    fibre = {"peak_stress": 0.03, "passive_stress": 0.0, "optimal_stretch": 1.37, "width_ascending": 0.22}
+    belly = MUSCLE.belly.model_copy(update=fibre | {"bulk": 1e6, "c1": 0.02, "c2": 0.005})
+    tissue = MUSCLE.tissue.model_copy(update={"prestretch": 1.0, "pcsa": 1000.0, "full_area": 1e-3})
+    muscle = MUSCLE.model_copy(update={"belly": belly, "tissue": tissue})
+    law = _RampedLaw(muscle, ngs.Parameter(0.0), ngs.CoefficientFunction(0.0))
     one = ngs.CoefficientFunction(1.0)
     site = Site(ngs.CoefficientFunction((1.0, 0.0, 0.0)), one, area * one)
     stretches, shear = _solve_block(law, site)
-    slim = 1 + 0.5 * (-1 + np.hypot(1, 0.1)) if area else 1.0
+    slim = 1 + 0.5 * (-1 + np.hypot(1, 0.1))
 
     def balance(stretch):
-        x = stretch / fibre.optimal_stretch - 1
-        active = fibre.active_force * np.exp(-((x / fibre.width_ascending) ** 2)) / area
-        isotropic = 2 * matrix.c1 * (stretch - stretch**-2) + 2 * matrix.c2 * (1 - stretch**-3)
+        x = stretch / belly.optimal_stretch - 1
+        active = belly.peak_stress * np.exp(-((x / belly.width_ascending) ** 2)) * tissue.pcsa / area
+        isotropic = 2 * belly.c1 * (stretch - stretch**-2) + 2 * belly.c2 * (1 - stretch**-3)
         return slim * isotropic + active
 
     expected = brentq(balance, 0.3, 1.0)
@@ -64,9 +66,7 @@ def test_an_active_block_rests_where_fibre_and_matrix_balance(area):
 
 def test_the_reference_body_is_free_of_stress_without_prestretch_and_activation():
     """In a tendon at rest: no force at all where F = I."""
-    law = MuscleLaw(
-        MUSCLE.fibre, MUSCLE.tendons, MUSCLE.matrix, ngs.CoefficientFunction(0.0), ngs.CoefficientFunction(0.0)
-    )
+    law = MuscleLaw(MUSCLE, ngs.CoefficientFunction(0.0), ngs.CoefficientFunction(0.0))
     mesh = MakeStructured3DMesh(hexes=True, nx=1, ny=1, nz=1)
     F = ngs.Id(3).MakeVariable()
     zero = ngs.CoefficientFunction(0.0)

@@ -4,14 +4,14 @@ import ngsolve as ngs
 import numpy as np
 import pytest
 from ngsolve.meshes import MakeStructured3DMesh
-from scipy.integrate import quad
 
 from myograph.anatomy.load import built_in_arm
-from myograph.mechanics.law import MuscleLaw, Site, belly_energy, matrix_energy, positive, tendon_energy
+from myograph.mechanics.law import MuscleLaw, Site, positive
 
 MESH = MakeStructured3DMesh(hexes=True, nx=1, ny=1, nz=1)
 POINT = MESH(0.3, 0.4, 0.5)
 MUSCLE = built_in_arm().muscles["biceps"]
+AREA = 900.0
 
 
 def _value(function):
@@ -22,9 +22,10 @@ def _number(value):
     return ngs.CoefficientFunction(float(value))
 
 
-def _energy(F, activation=0.4, ramp=1.0, fraction=0.7, muscle=MUSCLE):
-    law = MuscleLaw(muscle.fibre, muscle.tendons, muscle.matrix, _number(activation), _number(ramp))
-    site = Site(ngs.CoefficientFunction((0.6, 0.0, 0.8)), _number(fraction), _number(900.0))
+def _energy(F, activation=0.4, ramp=1.0, fraction=0.7, muscle=MUSCLE, along_x=False):
+    law = MuscleLaw(muscle, _number(activation), _number(ramp))
+    fibre = ngs.CoefficientFunction((1.0, 0.0, 0.0) if along_x else (0.6, 0.0, 0.8))
+    site = Site(fibre, _number(fraction), _number(AREA))
     matrix = ngs.CoefficientFunction(tuple(map(float, F.ravel())), dims=(3, 3))
     variable = matrix.MakeVariable()
     energy = law.energy(variable, _number(0.03), site)
@@ -62,7 +63,7 @@ def test_cauchy_stress_is_symmetric():
 
 
 def test_the_sign_of_the_fibre_has_no_meaning():
-    law = MuscleLaw(MUSCLE.fibre, MUSCLE.tendons, MUSCLE.matrix, _number(1.0), _number(1.0))
+    law = MuscleLaw(MUSCLE, _number(1.0), _number(1.0))
     F = ngs.CoefficientFunction(tuple(_generic_deformation().ravel()), dims=(3, 3))
     energies = [
         float(_value(law.energy(F, _number(0.0), Site(ngs.CoefficientFunction(a), _number(0.5), _number(500.0)))))
@@ -74,57 +75,70 @@ def test_the_sign_of_the_fibre_has_no_meaning():
 def test_the_volume_term_pulls_with_the_pressure():
     """Without fibres' share in it, dW/dp = J - 1 - p/κ."""
     F = _generic_deformation()
-    law = MuscleLaw(MUSCLE.fibre, MUSCLE.tendons, MUSCLE.matrix, _number(0.0), _number(0.0))
+    law = MuscleLaw(MUSCLE, _number(0.0), _number(0.0))
     site = Site(ngs.CoefficientFunction((1.0, 0.0, 0.0)), _number(0.5), _number(500.0))
     pressure = _number(0.4).MakeVariable()
     energy = law.energy(ngs.CoefficientFunction(tuple(F.ravel()), dims=(3, 3)), pressure, site)
     slope = float(_value(energy.Diff(pressure)))
-    assert slope == pytest.approx(np.linalg.det(F) - 1 - 0.4 / MUSCLE.matrix.bulk, rel=1e-10)
+    assert slope == pytest.approx(np.linalg.det(F) - 1 - 0.4 / MUSCLE.belly.bulk_modulus, rel=1e-10)
 
 
-def test_the_matrix_does_not_feel_a_change_of_volume():
-    """I1bar and I2bar are isochoric: the energy of s F is that of F."""
-    site = Site(ngs.CoefficientFunction((1.0, 0.0, 0.0)), _number(0.5), _number(500.0))
-
-    def energy(factor):
-        F = factor * _generic_deformation()
-        elastic = ngs.CoefficientFunction(tuple(map(float, F.ravel())), dims=(3, 3))
-        return float(_value(matrix_energy(elastic, _number(np.linalg.det(F)), MUSCLE.matrix, site)))
-
-    assert energy(1.2) == pytest.approx(energy(1.0), rel=1e-12)
+def _changed(**tissue):
+    return MUSCLE.model_copy(update={"tissue": MUSCLE.tissue.model_copy(update=tissue)})
 
 
-@pytest.mark.parametrize("exponent", [1.0, 1.273, 1.9])
-@pytest.mark.parametrize("activation", [0.0, 1.0])
-def test_the_energy_of_the_belly_is_the_integral_of_its_force(exponent, activation):
-    fibre = MUSCLE.fibre.model_copy(update={"passive_exponent": exponent})
-
-    def force(stretch):
-        total = fibre.prestretch * stretch
-        passive = fibre.passive_force * (0.5 * (total - 1 + np.hypot(total - 1, fibre.toe))) ** exponent
-        x = total / fibre.optimal_stretch - 1
-        width = fibre.width_descending if x > 0 else fibre.width_ascending
-        return passive + activation * fibre.active_force * np.exp(-((x / width) ** 2))
-
-    def energy(stretch):
-        return float(_value(belly_energy(_number(stretch), _number(fibre.prestretch), fibre, _number(activation))))
-
-    optimum = fibre.optimal_stretch / fibre.prestretch
-    work, _ = quad(force, 0.7, 1.25, points=[optimum], epsabs=1e-10)
-    assert energy(1.25) - energy(0.7) == pytest.approx(work, rel=1e-8)
+def _along(stretch, **where):
+    """Force along the fibre per reference area, dW/dl of a stretch l along x that keeps the volume [MPa]."""
+    step, energies = 1e-5, []
+    for x in (stretch - step, stretch + step):
+        energies.append(_energy(np.diag([x, x**-0.5, x**-0.5]), along_x=True, **where)[0])
+    low, high = energies
+    return (high - low) / (2 * step)
 
 
-def test_the_tendon_is_slack_then_quadratic_then_linear():
-    tendons, step = MUSCLE.tendons, 1e-5
+def test_a_bundle_pulls_with_the_stress_of_its_law_times_the_cross_section_of_the_muscle():
+    """dW/dl of the active part = ψ'(l0 l) pcsa / A, in a thick belly as in a thin one."""
+    stretch, belly, tissue = 1.05, MUSCLE.belly, MUSCLE.tissue
+    active = _along(stretch, activation=1.0, fraction=1.0) - _along(stretch, activation=0.0, fraction=1.0)
+    x = tissue.prestretch * stretch / belly.optimal_stretch - 1
+    width = belly.width_descending if x > 0 else belly.width_ascending
+    expected = belly.peak_stress * np.exp(-((x / width) ** 2))
+    assert active == pytest.approx(expected * tissue.pcsa / AREA, rel=1e-6)
 
-    def force(strain):
-        low, high = (float(_value(tendon_energy(_number(1 + strain + d), tendons))) for d in (-step, step))
-        return (high - low) / (2 * step)
 
-    toe, stiffness = tendons.toe, tendons.stiffness
-    assert force(-0.02) == pytest.approx(0, abs=1e-9)
-    assert force(toe / 2) == pytest.approx(stiffness * toe / 8, rel=1e-5)
-    assert force(2 * toe) == pytest.approx(stiffness * 1.5 * toe, rel=1e-6)
+def test_without_bundles_fibres_pull_with_the_stress_of_the_law():
+    """One fibre's nominal stress, where bundles give it pcsa / A: dW/dl = l0 ψ'(l0 l)."""
+    stretch, tissue = 1.05, MUSCLE.tissue
+    muscles = [_changed(bundles=False), MUSCLE]
+    loose, bundled = (
+        _along(stretch, activation=1.0, fraction=1.0, muscle=m)
+        - _along(stretch, activation=0.0, fraction=1.0, muscle=m)
+        for m in muscles
+    )
+    assert loose / bundled == pytest.approx(tissue.prestretch * AREA / tissue.pcsa, rel=1e-6)
+
+
+def test_the_tendon_pulls_with_its_modulus_times_its_own_area():
+    strain, law = 2 * MUSCLE.tendon.toe, MUSCLE.tendon
+    fibre = law.modulus * (strain - law.toe / 2) * MUSCLE.tissue.tendon_area / AREA
+    stretch = 1 + strain
+    matrix = 2 * law.c1 * (stretch - stretch**-2)
+    assert _along(stretch, fraction=0.0) == pytest.approx(fibre + matrix, rel=1e-6)
+
+
+def test_a_pre_stretched_matrix_pulls_in_the_reference_body_and_one_that_is_not_rests():
+    """Mooney–Rivlin at l0: dW/dl = 2 s_m (c1 + c2 / l0) (l0² - 1 / l0)."""
+    silent = {"passive_stress": 0.0, "peak_stress": 0.0}
+    belly, l0 = MUSCLE.belly, MUSCLE.tissue.prestretch
+    pulls = {}
+    for prestretched in (True, False):
+        muscle = _changed(prestretch_matrix=prestretched)
+        muscle = muscle.model_copy(update={"belly": belly.model_copy(update=silent)})
+        pulls[prestretched] = _along(1.0, fraction=1.0, muscle=muscle)
+    over = MUSCLE.tissue.full_area / AREA - 1
+    slim = 1 + 0.5 * (over + np.hypot(over, 0.1))
+    assert pulls[True] == pytest.approx(2 * slim * (belly.c1 + belly.c2 / l0) * (l0**2 - 1 / l0), rel=1e-6)
+    assert pulls[False] == pytest.approx(0, abs=1e-9)
 
 
 def test_the_positive_part_is_smooth_and_never_zero():

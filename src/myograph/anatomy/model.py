@@ -14,10 +14,17 @@ from scipy.interpolate import PchipInterpolator
 from myograph.anatomy.hinge import Hinge, hinge_frame
 from myograph.case import MUSCLES
 from myograph.config import Model
+from myograph.materials.catalogue import AnyLaw
 from myograph.units import radians
 
 Point = tuple[float, float, float]
 Positive = Annotated[float, Field(gt=0)]
+LARGEST_PRESTRETCH = 2.0
+"""Fibres of living muscle rest below this; beyond it, the active fibre is far behind its optimum."""
+BULK_OVER_TENDON_SHEAR = 20.0
+"""Bulk over the tendon's shear modulus: at its strains of 3 per cent the volume then changes by 1.5e-3 at most."""
+ATTACHED = 0.10
+"""Share of a muscle's length, at either end, where it grows out of bone and bones do not push."""
 Fraction = Annotated[float, Field(ge=0, le=1)]
 
 
@@ -44,69 +51,79 @@ class Bone(Model):
 
 
 class Tendons(Model):
-    """Lengths of the free tendons along the line of action, the width of their blend into the belly, their stiffness.
-
-    The tendon's force is quadratic in its strain up to `toe` and linear beyond; `stiffness` is the slope there [N].
-    """
+    """Lengths of the free tendons along the line of action, and the width of their blend into the belly."""
 
     origin: Positive
     insertion: Positive
     blend: Positive
-    stiffness: Positive
-    toe: Positive
 
 
-class Fibre(Model):
-    """Force of the whole bundle of belly fibres over their stretch l, with l_t = prestretch * l.
+class Tissue(Model):
+    """How the laws of belly and tendon make a muscle.
 
-    T = passive_force * pos(l_t - 1)^passive_exponent + activation * active_force * f(l_t / optimal_stretch - 1),
-    pos(e) = (e + sqrt(e² + toe²)) / 2, f a Gauss bell with its own width on either side of the optimum.
+    With `bundles`, fibres carry the same force everywhere along the muscle: nominal stress times `pcsa` (the
+    physiological cross-section of the unstretched belly) in the belly, times `tendon_area` in the tendon; and the
+    matrix is stiffer where the section is under `full_area` [all mm²]. Without, stresses are as the laws say them.
+
+    `prestretch` is the fibre's length in the reference body over its unstretched length; with `prestretch_matrix` the
+    matrix is pre-stretched, too.
     """
 
-    prestretch: Positive
-    passive_force: Positive
-    passive_exponent: Annotated[float, Field(ge=1)]
-    toe: Positive
-    active_force: Positive
-    optimal_stretch: Positive
-    width_ascending: Positive
-    width_descending: Positive
-
-
-class Matrix(Model):
-    """Mooney–Rivlin ground substance [MPa]; the belly's stiffness grows where the section is under `full_area`
-    [mm²]."""
-
-    c1: Positive
-    c2: Annotated[float, Field(ge=0)]
-    tendon_c1: Positive
-    bulk: Positive
+    prestretch: float
+    prestretch_matrix: bool = True
+    bundles: bool = True
+    pcsa: Positive
+    tendon_area: Positive
     full_area: Positive
+
+    @model_validator(mode="after")
+    def _prestretch_is_one_of_living_muscle(self) -> "Tissue":
+        if not 1 <= self.prestretch <= LARGEST_PRESTRETCH:
+            raise ValueError(
+                f"prestretch: expected 1 (none) to {LARGEST_PRESTRETCH:g}, the fibre's length in the reference body"
+                f" over its unstretched length; got {self.prestretch:g}"
+            )
+        return self
 
 
 class Band(Model):
-    """Elastic band that keeps a piece of the muscle near the forearm's axis and lets it slide along it.
+    """Elastic band that keeps a piece of the muscle near the axis of a bone and lets it slide along it.
 
     `place` and `width` (half-width) are fractions of the muscle's length, `reach` the largest free distance of the
-    skin from the axis [mm], `stiffness` in N/mm³.
+    skin from the bone's axis [mm], `stiffness` in N/mm³, `softness` the distance over which it becomes taut [mm].
     """
 
+    bone: str
     place: Fraction
     width: Positive
     reach: Positive
     stiffness: Positive
-    softness: Positive = 2.0
+    softness: Positive
 
 
 class Contact(Model):
-    """Rigid obstacles: a pulley about the hinge's axis, bones by name; bands; stiffness in N/mm³ at `full_area` mm²."""
+    """Rigid obstacles, a pulley about the hinge's axis [radius, mm] and bones by name; elastic bands.
+
+    Stiffnesses in N/mm³, `softness` in mm: the gap within which an obstacle begins to push.
+    """
 
     pulley: Annotated[float, Field(ge=0)] = 0.0
+    pulley_stiffness: Positive = 8.0
     bones: tuple[str, ...] = ()
+    stiffness: Positive = 0.5
+    softness: Positive = 0.5
     bands: tuple[Band, ...] = ()
-    stiffness: Positive = 1.0
-    softness: Positive = 1.0
-    full_area: Positive = 50.0
+
+
+class Calibration(Model):
+    """Where fitted parameters come from: relative L2 errors on the samples that were fitted and on those unseen."""
+
+    source: str
+    preset: str
+    samples_fitted: Annotated[int, Field(gt=0)]
+    samples_unseen: Annotated[int, Field(gt=0)]
+    error_fitted: Positive
+    error_unseen: Positive
 
 
 class Muscle(Model):
@@ -126,9 +143,11 @@ class Muscle(Model):
     areas: tuple[tuple[Fraction, Positive], ...]
     flattening: Positive = 1.0
     tendons: Tendons
-    fibre: Fibre
-    matrix: Matrix
+    tissue: Tissue
+    belly: AnyLaw
+    tendon: AnyLaw
     contact: Contact = Contact()
+    calibration: Calibration | None = None
 
     @model_validator(mode="after")
     def _areas_cover_the_length(self) -> "Muscle":
@@ -137,6 +156,17 @@ class Muscle(Model):
             raise ValueError("areas: expected fractions that grow from 0 to 1")
         if self.origin == self.insertion:
             raise ValueError("origin and insertion are the same point: the fibres would have no length")
+        return self
+
+    @model_validator(mode="after")
+    def _tendon_keeps_its_volume(self) -> "Muscle":
+        bulk, shear = self.belly.bulk_modulus, self.tendon.shear_modulus
+        if bulk < BULK_OVER_TENDON_SHEAR * shear:
+            raise ValueError(
+                f"belly: its bulk modulus holds in the tendon, too; expected at least {BULK_OVER_TENDON_SHEAR:g} times"
+                f" the tendon's shear modulus of {shear:g} MPa, so that the tendon keeps its volume; got {bulk:g}, give"
+                f" {BULK_OVER_TENDON_SHEAR * shear:g} MPa or more"
+            )
         return self
 
     def section_area(self, along: Float[np.ndarray, " places"]) -> Float[np.ndarray, " places"]:
@@ -177,9 +207,9 @@ class Arm(Model):
         if set(self.muscles) != set(MUSCLES):
             raise ValueError(f"muscles: expected exactly {', '.join(MUSCLES)}, got {', '.join(self.muscles) or 'none'}")
         for name, muscle in self.muscles.items():
-            for bone in muscle.contact.bones:
+            for bone in (*muscle.contact.bones, *(band.bone for band in muscle.contact.bands)):
                 if bone not in self.bones:
-                    raise ValueError(f"muscles.{name}.contact.bones: unknown bone '{bone}'")
+                    raise ValueError(f"muscles.{name}.contact: unknown bone '{bone}', expected {', '.join(self.bones)}")
         return self
 
     @property

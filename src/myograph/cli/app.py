@@ -14,6 +14,7 @@ import myograph
 from myograph.cli.arm import arm
 from myograph.cli.demo import demo
 from myograph.cli.solve import solve
+from myograph.cli.verify import verify
 from myograph.errors import MyographError
 
 INTERRUPTED = 130
@@ -29,6 +30,7 @@ app = typer.Typer(
 app.command()(demo)
 app.command()(arm)
 app.command()(solve)
+app.command()(verify)
 
 
 def _show_version(wanted: bool) -> None:

@@ -11,7 +11,6 @@ from myograph.anatomy.model import Arm
 from myograph.case import MUSCLES
 from myograph.cli.options import ArmFile, Json, Preset, print_json, read_arm
 from myograph.files import write_whole
-from myograph.mesh.hexahedra import jacobian_weights
 from myograph.mesh.presets import muscle_mesh, resolution
 from myograph.mesh.quality import scaled_jacobians
 
@@ -44,10 +43,9 @@ def describe_arm(anatomy: Arm, preset: str) -> dict[str, Any]:
     rows = {}
     for name in MUSCLES:
         mesh = muscle_mesh(anatomy, name, resolution(preset))
-        centres = np.array([mesh.points[mesh.along == place].mean(axis=0) for place in np.unique(mesh.along)])
         rows[name] = {
-            "length_mm": float(np.linalg.norm(np.diff(centres, axis=0), axis=1).sum()),
-            "volume_cm3": float(jacobian_weights(mesh.points, mesh.cells).sum() / 1000),
+            "length_mm": mesh.length,
+            "volume_cm3": mesh.volume() / 1000,
             "nodes": len(mesh.points),
             "worst_scaled_jacobian": float(scaled_jacobians(mesh).min()),
         }

@@ -37,6 +37,11 @@ def solve(
         "von_mises_max_mpa": float(state.fields["von_mises"].max()),
         "fibre_stretch_min": float(state.fields["fibre_stretch"].min()),
         "fibre_stretch_max": float(state.fields["fibre_stretch"].max()),
+        "volume_change": state.soundness.volume_change,
+        "smallest_jacobian": state.soundness.smallest_jacobian,
+        "penetration_mm": state.soundness.penetration,
+        "obstacle": state.soundness.obstacle,
+        "newton_steps": state.newton_steps,
         "nodes": len(state.fields["position"]),
         "seconds": time.perf_counter() - started,
         "out": None if out is None else str(out),
@@ -52,7 +57,9 @@ def solve(
         f"{muscle} at activation {activation:g}, {angle:g} degrees ({size})\n"
         f"  moment about the elbow  {result['moment_nm']:8.3f} N·m (positive flexes)\n"
         f"  von Mises stress        {stress}\n"
-        f"  fibre stretch           {result['fibre_stretch_min']:8.3f} to {result['fibre_stretch_max']:.3f}"
+        f"  fibre stretch           {result['fibre_stretch_min']:8.3f} to {result['fibre_stretch_max']:.3f}\n"
+        f"  volume changed by       {result['volume_change']:8.1e}, smallest J {result['smallest_jacobian']:.2f}\n"
+        f"  depth in a bone         {max(result['penetration_mm'], 0.0):8.2f} mm, nearest: {result['obstacle']}"
     )
     if out is not None:
         typer.echo(f"  fields                  {out}")

@@ -13,18 +13,19 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float, Int, Shaped
 
 from myograph.anatomy.load import arm_checksum
 from myograph.anatomy.model import Arm
-from myograph.errors import InputError
+from myograph.errors import InputError, NotConvergedError
 from myograph.fields import von_mises
 from myograph.files import write_whole
 from myograph.interpolation.tensor import TensorSpline
 from myograph.units import radians
 
-FORMAT = 1
+FORMAT = 2
 FIELDS_IN_TABLE = ("position", "cauchy_stress", "fibre_stretch", "pressure")
+_RECORDS = ("newton_steps", "volume_change", "smallest_jacobian", "penetration", "failures")
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,27 @@ def table_key(arm: Arm, name: str, preset: str, grid: Grid) -> str:
 
 
 @dataclass(frozen=True)
+class Record:
+    """How each state was solved.
+
+    Parameters
+    ----------
+    newton_steps
+        Steps that each state took from its neighbour.
+    volume_change, smallest_jacobian, penetration
+        See `myograph.mechanics.soundness`; NaN where a state failed.
+    failures
+        Why a state failed; empty where it was solved.
+    """
+
+    newton_steps: Int[np.ndarray, "angles activations"]
+    volume_change: Float[np.ndarray, "angles activations"]
+    smallest_jacobian: Float[np.ndarray, "angles activations"]
+    penetration: Float[np.ndarray, "angles activations"]
+    failures: Shaped[np.ndarray, "angles activations"]
+
+
+@dataclass(frozen=True)
 class MuscleTable:
     """States of one muscle on a grid.
 
@@ -66,8 +88,8 @@ class MuscleTable:
         Nodes in the reference body [mm].
     skin
         Quadrilaterals of the surface.
-    newton_steps
-        Steps that each state took from its neighbour.
+    record
+        How each state was solved.
     """
 
     muscle: str
@@ -77,7 +99,16 @@ class MuscleTable:
     fields: Mapping[str, Float[np.ndarray, "angles activations nodes ..."]]
     reference: Float[np.ndarray, "nodes 3"]
     skin: Int[np.ndarray, "quads 4"]
-    newton_steps: Int[np.ndarray, "angles activations"]
+    record: Record
+
+    def require_complete(self) -> None:
+        """Raise NotConvergedError, with the number of failed states and the first reason, unless all are there."""
+        failed = np.argwhere(self.record.failures != "")
+        if len(failed):
+            first = self.record.failures[tuple(failed[0])]
+            raise NotConvergedError(
+                f"{self.muscle}: {len(failed)} of {self.grid.size} states failed; the first: {first}"
+            )
 
     def moment(self, angles: Float[np.ndarray, " points"], activation: float) -> Float[np.ndarray, " points"]:
         """Moments [N*mm] at angles [rad] between the grid points."""
@@ -90,10 +121,12 @@ class MuscleTable:
 
     @cached_property
     def _moment_spline(self) -> TensorSpline:
+        self.require_complete()
         return TensorSpline(np.array(self.grid.angles), np.array(self.grid.activations), self.moments)
 
     @cached_property
     def _field_splines(self) -> dict[str, TensorSpline]:
+        self.require_complete()
         angles, activations = np.array(self.grid.angles), np.array(self.grid.activations)
         return {name: TensorSpline(angles, activations, values) for name, values in self.fields.items()}
 
@@ -112,8 +145,8 @@ def save_table(table: MuscleTable, path: Path) -> None:
             moments=table.moments,
             reference=table.reference,
             skin=table.skin,
-            newton_steps=table.newton_steps,
             allow_pickle=False,
+            **{name: getattr(table.record, name) for name in _RECORDS},
             **arrays,
         ),
     )
@@ -132,7 +165,7 @@ def load_table(path: Path, key: str) -> MuscleTable:
             fields={name: arrays[f"field_{name}"] for name in FIELDS_IN_TABLE},
             reference=arrays["reference"],
             skin=arrays["skin"],
-            newton_steps=arrays["newton_steps"],
+            record=Record(**{name: arrays[name] for name in _RECORDS}),
         )
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as problem:
         raise InputError(f"{path}: not a readable muscle table ({problem}); delete it and tabulate anew") from None

@@ -1,12 +1,15 @@
-r"""What keeps a muscle out of the bones and on the forearm: energies on its skin.
+r"""What keeps a muscle out of the bones and on the arm: energies on its skin.
 
-    W = ∫ k pos(-g)² / 2 dA,   k = stiffness * full_area / max(A, full_area)
+    W = ∫ k s(-g)² / 2 dA,   s(v) = w log(1 + exp(v / w))
 
-with g the gap to a rigid obstacle: a pulley (cylinder about the hinge's axis), a bone (capsule), or a band that keeps
-a piece of the muscle near the forearm's axis while it slides along it. Stiff on the slim tendon, soft on the belly.
+with g the gap to a rigid obstacle: a pulley (cylinder about the hinge's axis), a bone (capsule), or an elastic band,
+which holds a piece of the muscle near a bone and lets it slide along. The bones of the forearm turn with it: their
+gaps are taken at the place where a point was before the forearm turned. Bands grow with the ramp of the pre-stretch.
 
-Traps: the positive part is smooth over about 1 mm, else Newton chatters. A bone does not push where the muscle grows
-out of it, which is its first tenth. The humerus ends at the hinge: as an endless line it blocks the insertion.
+Traps: s is smooth, else Newton chatters, and vanishes exponentially: an algebraic tail pushes from afar as hard as a
+slack muscle pulls. A bone does not push where the muscle grows out of it, the first and the last tenth. The pulley is
+soft on the belly and stiff on the tendon: k shrinks where the section is over 50 mm². The humerus ends at the hinge:
+as an endless line it blocks the insertion.
 """
 
 from dataclasses import dataclass
@@ -15,10 +18,12 @@ import ngsolve as ngs
 import numpy as np
 
 from myograph.anatomy.hinge import Hinge
-from myograph.anatomy.model import Arm, Band, Bone, Contact
+from myograph.anatomy.model import ATTACHED, Arm, Bone, Contact
 from myograph.mechanics.law import positive
 
-_ATTACHED = 0.10
+_TENDON_AREA = 50.0
+"""Section [mm²] above which the pulley is softer."""
+Field = ngs.CoefficientFunction
 
 
 @dataclass(frozen=True)
@@ -34,63 +39,75 @@ class Turn:
         self.sine.Set(float(np.sin(flexion)))
 
 
-def fixed_contact_energy(
-    arm: Arm,
-    contact: Contact,
-    place: ngs.CoefficientFunction,
-    along: ngs.CoefficientFunction,
-    area: ngs.CoefficientFunction,
-) -> ngs.CoefficientFunction | None:
+@dataclass(frozen=True)
+class Skin:
+    """Points of the skin: where they are now [mm], along the muscle (0 to 1), area of their section [mm²]."""
+
+    place: Field
+    along: Field
+    area: Field
+
+
+def fixed_energy(arm: Arm, contact: Contact, skin: Skin) -> Field | None:
     """Energy per skin area [N/mm] of the pulley and of the bones that stand still; None without obstacles."""
-    hinge = arm.hinge.frame()
-    stiffness = _stiffness(contact, area)
-    grown = ngs.IfPos(along - _ATTACHED, 1.0, (along / _ATTACHED) ** 2)
     energies = []
     if contact.pulley > 0:
-        energies.append(_penalty(_axis_distance(hinge, place) - contact.pulley, contact.softness))
-    for name in contact.bones:
-        gap = _capsule_distance(arm.bones[name], place) - arm.bones[name].radius
-        energies.append(grown * _penalty(gap, contact.softness))
-    return stiffness * sum(energies[1:], energies[0]) if energies else None
+        softer = _TENDON_AREA / (_TENDON_AREA + positive(skin.area - _TENDON_AREA, 1.0))
+        gap = _axis_distance(arm.hinge.frame(), skin.place) - contact.pulley
+        energies.append(contact.pulley_stiffness * softer * _penalty(gap, contact.softness))
+    fixed = [arm.bones[name] for name in contact.bones if arm.bones[name].moves_with == "upper arm"]
+    energies += [_bone_energy(bone, contact, skin.place, skin.along) for bone in fixed]
+    return _sum(energies)
 
 
-def band_energy(
-    arm: Arm, band: Band, place: ngs.CoefficientFunction, along: ngs.CoefficientFunction, turn: Turn
-) -> ngs.CoefficientFunction:
-    """Energy per skin area [N/mm] of an elastic band to the forearm, with which it turns."""
-    window = ngs.exp(-(((along - band.place) / band.width) ** 2))
-    return band.stiffness * window * _penalty(band.reach - _forearm_distance(arm, place, turn), band.softness)
+def turning_energy(arm: Arm, contact: Contact, skin: Skin, turn: Turn, ramp: Field) -> Field | None:
+    """Energy per skin area [N/mm] of all that depends on the elbow's angle, and of the bands; None without them."""
+    before = _unturned(arm.hinge.frame(), skin.place, turn)
+    turning = [arm.bones[name] for name in contact.bones if arm.bones[name].moves_with == "forearm"]
+    energies = [_bone_energy(bone, contact, before, skin.along) for bone in turning]
+    for band in contact.bands:
+        bone = arm.bones[band.bone]
+        window = ngs.exp(-(((skin.along - band.place) / band.width) ** 2))
+        distance = _capsule_distance(bone, before if bone.moves_with == "forearm" else skin.place)
+        energies.append(ramp * band.stiffness * window * _penalty(band.reach - distance, band.softness))
+    return _sum(energies)
 
 
-def _forearm_distance(arm: Arm, place: ngs.CoefficientFunction, turn: Turn) -> ngs.CoefficientFunction:
-    """Distance from the forearm's axis, which runs from the hinge to the wrist [mm]."""
-    hinge = arm.hinge.frame()
-    wrist = np.mean([np.array(bone.end) for bone in arm.bones.values() if bone.moves_with == "forearm"], axis=0)
-    direction = wrist - hinge.point
-    forward, up, lateral = hinge.to_plane(hinge.point + direction / np.linalg.norm(direction))
-    turned = (turn.cosine * forward - turn.sine * up, turn.sine * forward + turn.cosine * up)
-    axis = sum((turned[1] * _cf(hinge.up), lateral * _cf(hinge.axis)), turned[0] * _cf(hinge.forward))
+def _bone_energy(bone: Bone, contact: Contact, place: Field, along: Field) -> Field:
+    free = _ramp(along) * _ramp(1 - along)
+    return contact.stiffness * free * _penalty(_capsule_distance(bone, place) - bone.radius, contact.softness)
+
+
+def _ramp(share: Field) -> Field:
+    """From 0 at an end of the muscle to 1 at the end of the attached tenth."""
+    clamped = ngs.IfPos(share, ngs.IfPos(share - ATTACHED, 1.0, share / ATTACHED), 0.0)
+    return clamped * clamped
+
+
+def _unturned(hinge: Hinge, place: Field, turn: Turn) -> Field:
+    """Where a place was before the forearm turned."""
     offset = place - _cf(hinge.point)
-    rest = offset - ngs.InnerProduct(offset, axis) * axis
-    return ngs.sqrt(ngs.InnerProduct(rest, rest) + 1e-6)
+    forward, up, lateral = (ngs.InnerProduct(offset, _cf(axis)) for axis in (hinge.forward, hinge.up, hinge.axis))
+    turned = (turn.cosine * forward + turn.sine * up) * _cf(hinge.forward)
+    return (
+        _cf(hinge.point) + turned + (turn.cosine * up - turn.sine * forward) * _cf(hinge.up) + lateral * _cf(hinge.axis)
+    )
 
 
-def _stiffness(contact: Contact, area: ngs.CoefficientFunction) -> ngs.CoefficientFunction:
-    return contact.stiffness * contact.full_area / (contact.full_area + positive(area - contact.full_area, 1.0))
-
-
-def _penalty(gap: ngs.CoefficientFunction, softness: float) -> ngs.CoefficientFunction:
-    depth = positive(-gap, softness)
+def _penalty(gap: Field, softness: float) -> Field:
+    """Half the square of the smooth depth; written so that no exponential overflows."""
+    size = ngs.IfPos(gap, gap, -gap)
+    depth = ngs.IfPos(gap, 0.0, -gap) + softness * ngs.log(1 + ngs.exp(-size / softness))
     return 0.5 * depth * depth
 
 
-def _axis_distance(hinge: Hinge, place: ngs.CoefficientFunction) -> ngs.CoefficientFunction:
+def _axis_distance(hinge: Hinge, place: Field) -> Field:
     offset = place - _cf(hinge.point)
     forward, up = ngs.InnerProduct(offset, _cf(hinge.forward)), ngs.InnerProduct(offset, _cf(hinge.up))
     return ngs.sqrt(forward * forward + up * up + 1e-6)
 
 
-def _capsule_distance(bone: Bone, place: ngs.CoefficientFunction) -> ngs.CoefficientFunction:
+def _capsule_distance(bone: Bone, place: Field) -> Field:
     start, end = np.array(bone.start), np.array(bone.end)
     offset = place - _cf(start)
     share = ngs.InnerProduct(offset, _cf(end - start)) / float((end - start) @ (end - start))
@@ -99,5 +116,9 @@ def _capsule_distance(bone: Bone, place: ngs.CoefficientFunction) -> ngs.Coeffic
     return ngs.sqrt(ngs.InnerProduct(rest, rest) + 1e-6)
 
 
-def _cf(vector: np.ndarray) -> ngs.CoefficientFunction:
+def _sum(energies: list[Field]) -> Field | None:
+    return sum(energies[1:], energies[0]) if energies else None
+
+
+def _cf(vector: np.ndarray) -> Field:
     return ngs.CoefficientFunction(tuple(map(float, vector)))

@@ -1,22 +1,25 @@
 """From one solved state of a muscle to another: steps that are cut back on failure and grown on success.
 
 A path of controls leads from state to state: first the pre-stretch is ramped up in the reference pose, then the angle
-changes at rest, then the activation jumps. Every step starts from the last solved one, along the secant of the last
-two.
+changes at rest, then the activation jumps. Every step starts from the last solved one; a turn of the elbow, from the
+parabola through the last two.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
 from myograph.errors import NotConvergedError, SolvePoint
-from myograph.mechanics.newton import newton
+from myograph.mechanics.newton import NewtonResult, newton
+from myograph.mechanics.predictor import extrapolated, flexion_rate
 from myograph.mechanics.problem import MuscleProblem
 from myograph.units import degrees, radians
 
 LARGEST_TURN = radians(20.0)
 SMALLEST_SHARE = 1 / 128
+_QUICK = 4
+"""Newton steps up to which a load step was easy and the next may be three times as long."""
 
 
 @dataclass(frozen=True)
@@ -39,11 +42,23 @@ class Controls:
 
 @dataclass(frozen=True)
 class Solved:
-    """A solved state: its controls, its unknowns, and the Newton steps that led to it from the state before."""
+    """A solved state.
+
+    Parameters
+    ----------
+    controls, vector
+        Where, and the unknowns.
+    newton_steps
+        Tangents that were assembled and factored on the way from the state before.
+    rate, turn
+        Of the last turn of the elbow: the rate of the unknowns where it began [per rad], and its size [rad].
+    """
 
     controls: Controls
     vector: Float[np.ndarray, " unknowns"]
     newton_steps: int
+    rate: Float[np.ndarray, " unknowns"] | None = None
+    turn: float = 0.0
 
 
 def unloaded(problem: MuscleProblem) -> Solved:
@@ -66,22 +81,35 @@ def reach(problem: MuscleProblem, start: Solved, target: Controls, first_share: 
     turn = abs(target.flexion - start.controls.flexion)
     share = min(first_share, LARGEST_TURN / turn if turn > LARGEST_TURN else 1.0)
     done, steps, here = 0.0, 0, start
+    rate: np.ndarray | None = None
     while done < 1:
         share = min(share, 1 - done)
         controls = start.controls.towards(target, done + share)
-        set_controls(problem, controls)
-        moved = problem.boundary_values(controls.flexion) - problem.boundary_values(here.controls.flexion)
-        result = newton(problem, here.vector, moved)
+        if rate is None and controls.flexion != here.controls.flexion:
+            set_controls(problem, here.controls)
+            rate, steps = flexion_rate(problem, here.vector, here.controls.flexion), steps + 1
+        result = _step(problem, here, controls, rate)
         steps += len(result.residuals)
         if not result.failure:
-            here = Solved(controls, result.vector, steps)
+            turned = controls.flexion - here.controls.flexion
+            memory = (rate, turned) if rate is not None else (here.rate, here.turn)
+            here, rate = Solved(controls, result.vector, steps, *memory), None
             done = 1.0 if done + share > 1 - 1e-9 else done + share
-            share *= 1.5
+            share *= 3.0 if len(result.residuals) <= _QUICK else 1.5
         elif share / 2 < SMALLEST_SHARE:
             raise _failure(problem, controls, result.failure, result.residuals)
         else:
             share /= 2
-    return Solved(target, here.vector, steps)
+    return replace(here, controls=target, newton_steps=steps)
+
+
+def _step(problem: MuscleProblem, here: Solved, controls: Controls, rate: np.ndarray | None) -> NewtonResult:
+    """One load step; with a rate, along the parabola."""
+    guess = here.vector
+    if rate is not None:
+        guess = guess + extrapolated(rate, here.rate, controls.flexion - here.controls.flexion, here.turn)
+    set_controls(problem, controls)
+    return newton(problem, guess, problem.boundary_values(controls.flexion) - np.where(problem.free, 0.0, guess))
 
 
 def set_controls(problem: MuscleProblem, controls: Controls) -> None:

@@ -1,30 +1,37 @@
-r"""Energy per reference volume of muscle and tendon, summed from parts: matrix, fibre, volume.
+r"""Energy per reference volume of a muscle, composed of two laws: that of its belly and that of its tendon.
 
-    W = c1 (I1bar - 3) + c2 (I2bar - 3) + (γ Φ_belly(l) + (1 - γ) Φ_tendon(l)) / A + p (J - 1) - p² / (2 κ)
+    W = γ (s_m W_matrix(F G0 or F) + s_b (W_passive + a W_active)(F G0))        belly
+      + (1 - γ) (V_matrix(F) + s_t V_passive(F))                                tendon
+      + p θ(J) - p² / (2 K)                                                     volume, θ and K of the belly's law
 
-with I1bar, I2bar of F G0, where G0 stretches the matrix along the fibre as the fibre is pre-stretched in the
-reference body; l = |F a0|; γ the muscle's fraction; A the area of the reference section. Fibres run in bundles of
-constant force: Φ' is the force of the whole bundle, so that the first Piola–Kirchhoff stress is T(l) / (A l) F a0 ⊗
-a0 and tapered ends carry what the belly carries.
+with γ the smooth fraction of belly, a the activation, and G0 = l0^(-1/2) 1 + (l0 - l0^(-1/2)) a0 ⊗ a0, which stretches
+the belly as it is pre-stretched in the reference body: l0 = 1 + ramp γ (prestretch - 1).
 
-Convention: T / A is force per reference area; the other habit in print, S = T / A a0 ⊗ a0, pulls l times harder.
-Trap: every switch is smooth, else Newton chatters for ever; and the term in p² must stay, else the matrix loses its
-quasi-definiteness and the factorisation without pivoting fails.
+Bundles: fibres carry the same force everywhere along the muscle, so that tapered ends carry what the belly carries.
+With A the area of the reference section s_b = pcsa / (A l0), s_t = tendon_area / A: the first Piola–Kirchhoff stress
+along the fibre is that of the law times pcsa / A. The matrix is stiffer where the section is small, s_m = 1 +
+pos(full_area / A - 1). Without bundles all three are 1.
+
+Trap: every switch must be smooth, else Newton chatters for ever; and the term in p² must stay, else the matrix loses
+its quasi-definiteness and the factorisation without pivoting fails.
 """
 
 from dataclasses import dataclass
-from math import pi, sqrt
 
 import ngsolve as ngs
 
-from myograph.anatomy.model import Fibre, Matrix, Tendons
+from myograph.anatomy.model import Muscle
+from myograph.materials.functions import Scalar
+from myograph.materials.functions import positive as positive_part
+from myograph.materials.invariants import Invariants
+from myograph.mechanics.functions import NGSOLVE, field_invariants
 
-Scalar = ngs.CoefficientFunction
+_SLIM_SOFTNESS = 0.1
 
 
 @dataclass(frozen=True)
 class Site:
-    """What the law needs to know of a place: fibre direction, muscle fraction, section area [mm²]."""
+    """What the law needs to know of a place: fibre direction, belly's fraction, section area [mm²]."""
 
     fibre: ngs.CoefficientFunction
     fraction: Scalar
@@ -33,51 +40,7 @@ class Site:
 
 def positive(value: Scalar, width: float) -> Scalar:
     """Smooth positive part (v + sqrt(v² + width²)) / 2: never zero, slope 1/2 at zero."""
-    return 0.5 * (value + ngs.sqrt(value * value + width**2))
-
-
-def belly_energy(stretch: Scalar, prestretch: Scalar, fibre: Fibre, activation: Scalar) -> Scalar:
-    """Energy [N] whose derivative over the fibre's stretch is the bundle's force [N].
-
-    The antiderivative of pos(e)^n is q^(n+1)/(n+1) + toe²/4 q^(n-1)/(n-1) with q = pos(e), a logarithm where n = 1;
-    that of the Gauss bell is the error function.
-    """
-    total = stretch * prestretch
-    q = positive(total - 1, fibre.toe)
-    n = fibre.passive_exponent
-    tail = ngs.log(q) if n == 1 else q ** (n - 1) / (n - 1)
-    passive = fibre.passive_force * (q ** (n + 1) / (n + 1) + 0.25 * fibre.toe**2 * tail)
-    x = total / fibre.optimal_stretch - 1
-    bell = ngs.IfPos(x, _bell(x, fibre.width_descending), _bell(x, fibre.width_ascending))
-    return (passive + activation * fibre.active_force * fibre.optimal_stretch * bell) / prestretch
-
-
-def _bell(x: Scalar, width: float) -> Scalar:
-    return 0.5 * sqrt(pi) * width * ngs.erf(x / width)
-
-
-def tendon_energy(stretch: Scalar, tendons: Tendons) -> Scalar:
-    """Energy [N] of a tendon whose force is quadratic in the strain up to the toe's end, linear beyond, zero below."""
-    strain, toe = stretch - 1, tendons.toe
-    quadratic = strain**3 / (6 * toe)
-    linear = 0.5 * strain * strain - 0.5 * toe * strain + toe**2 / 6
-    return tendons.stiffness * ngs.IfPos(strain - toe, linear, ngs.IfPos(strain, quadratic, 0.0 * strain))
-
-
-def matrix_energy(elastic: Scalar, volume_ratio: Scalar, matrix: Matrix, site: Site) -> Scalar:
-    """Isochoric Mooney–Rivlin energy [MPa] of the elastic deformation F G0."""
-    C = elastic.trans * elastic
-    first = ngs.Trace(C)
-    second = 0.5 * (first * first - ngs.Trace(C * C))
-    slim = positive(matrix.full_area / site.area - 1, 0.1) + 1
-    c1 = site.fraction * slim * matrix.c1 + (1 - site.fraction) * matrix.tendon_c1
-    c2 = site.fraction * slim * matrix.c2
-    return c1 * (volume_ratio ** (-2 / 3) * first - 3) + c2 * (volume_ratio ** (-4 / 3) * second - 3)
-
-
-def volume_energy(volume_ratio: Scalar, pressure: Scalar, bulk: float) -> Scalar:
-    """Perturbed Lagrangian of the volume constraint [MPa]; its stationary pressure is κ (J - 1)."""
-    return pressure * (volume_ratio - 1) - pressure * pressure / (2 * bulk)
+    return positive_part(value, width, NGSOLVE)
 
 
 @dataclass(frozen=True)
@@ -85,25 +48,29 @@ class MuscleLaw:
     """The law of one muscle; `activation` and `ramp` (of the pre-stretch, 0 to 1) may be numbers or NGSolve
     parameters."""
 
-    fibre: Fibre
-    tendons: Tendons
-    matrix: Matrix
+    muscle: Muscle
     activation: Scalar
     ramp: Scalar
 
     def energy(self, F: Scalar, pressure: Scalar, site: Site) -> Scalar:
         """Energy per reference volume [MPa] of the deformation gradient and the pressure."""
-        J = ngs.Det(F)
-        a0 = site.fibre
-        prestretch = 1 + self.ramp * site.fraction * (self.fibre.prestretch - 1)
-        across = prestretch ** (-0.5)
-        G0 = across * ngs.Id(3) + (prestretch - across) * ngs.OuterProduct(a0, a0)
-        Fa = F * a0
-        stretch = ngs.sqrt(ngs.InnerProduct(Fa, Fa))
-        belly = belly_energy(stretch, prestretch, self.fibre, self.activation)
-        bundle = site.fraction * belly + (1 - site.fraction) * tendon_energy(stretch, self.tendons)
-        return (
-            matrix_energy(F * G0, J, self.matrix, site)
-            + bundle / site.area
-            + volume_energy(J, pressure, self.matrix.bulk)
-        )
+        at, belly = field_invariants(F, site.fibre), self.muscle.belly
+        prestretch = 1 + self.ramp * site.fraction * (self.muscle.tissue.prestretch - 1)
+        volume = pressure * belly.volume_strain(at.J, NGSOLVE) - pressure * pressure / (2 * belly.bulk_modulus)
+        share = site.fraction
+        return share * self._belly(at, prestretch, site) + (1 - share) * self._tendon(at, site) + volume
+
+    def _belly(self, at: Invariants, prestretch: Scalar, site: Site) -> Scalar:
+        tissue, law = self.muscle.tissue, self.muscle.belly
+        elastic = at.prestretched(prestretch)
+        matrix = law.matrix(elastic if tissue.prestretch_matrix else at, NGSOLVE)
+        fibre = law.passive_fibre(elastic, NGSOLVE) + self.activation * law.active(elastic, NGSOLVE)
+        if not tissue.bundles:
+            return matrix + fibre
+        slim = 1 + positive(tissue.full_area / site.area - 1, _SLIM_SOFTNESS)
+        return slim * matrix + tissue.pcsa / (site.area * prestretch) * fibre
+
+    def _tendon(self, at: Invariants, site: Site) -> Scalar:
+        tissue, law = self.muscle.tissue, self.muscle.tendon
+        share = tissue.tendon_area / site.area if tissue.bundles else 1.0
+        return law.matrix(at, NGSOLVE) + share * law.passive_fibre(at, NGSOLVE)

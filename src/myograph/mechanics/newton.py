@@ -2,7 +2,8 @@
 
 The prescribed displacement enters the first linear solve (r + K d), so that the whole body follows the boundary; put
 straight into the boundary nodes it would invert the next elements. That first step is always accepted; later ones are
-halved until the residual is below twice the last one or a hundredth of the reaction.
+halved until the residual is below twice the last one or a hundredth of the reaction, and after some steps, where it
+may be going round in a circle between contacts, until it is below the largest of the last three.
 """
 
 from dataclasses import dataclass
@@ -11,16 +12,16 @@ import numpy as np
 from jaxtyping import Float
 
 from myograph.mechanics.problem import MuscleProblem
-from myograph.mesh.hexahedra import jacobian_determinants, lattice
 
 TOLERANCE = 1e-7
 """Residual force over the reaction at which a state counts as solved."""
 MOST_STEPS = 25
 _MOST_HALVINGS = 6
+_PATIENCE = 6
+"""Steps after which the residual must fall."""
 _SMALLEST_REACTION = 1.0
 _PRESSURE_SCALE = 0.01
 """Force per volume [N/mm³] that makes the residual of the volume constraint comparable to forces."""
-_GAUSS = (-float(np.sqrt(0.6)), 0.0, float(np.sqrt(0.6)))
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,8 @@ def newton(
     problem: MuscleProblem, vector: Float[np.ndarray, " unknowns"], increment: Float[np.ndarray, " unknowns"]
 ) -> NewtonResult:
     """Solve at the problem's present controls, from `vector`, moving the boundary by `increment` [mm]."""
+    if not np.isfinite(problem.residual(vector)).all():
+        return NewtonResult(vector, (), "the guess turned an element inside out")
     tangent = problem.tangent(vector)
     change = increment + tangent.solve(-(problem.residual(vector) + tangent.times(increment)))
     vector = vector + change
@@ -53,7 +56,8 @@ def newton(
         if len(history) > MOST_STEPS:
             return NewtonResult(vector, tuple(history), f"no convergence in {MOST_STEPS} steps")
         change = problem.tangent(vector).solve(-residual)
-        vector, residual = _damped(problem, vector, change, max(2 * size, 1e-2 * reaction))
+        bound = max(2 * size, 1e-2 * reaction) if len(history) <= _PATIENCE else 0.95 * max(history[-3:]) * reaction
+        vector, residual = _damped(problem, vector, change, bound)
 
 
 def _damped(
@@ -83,7 +87,4 @@ def _norms(problem: MuscleProblem, residual: Float[np.ndarray, " unknowns"]) -> 
 
 def smallest_volume_ratio(problem: MuscleProblem, vector: Float[np.ndarray, " unknowns"]) -> float:
     """Smallest J = det F over all integration points."""
-    cells, local = problem.hexahedra.cells, lattice(_GAUSS)
-    now = jacobian_determinants(problem.positions(vector), cells, local)
-    before = jacobian_determinants(problem.hexahedra.points, cells, local)
-    return float((now / before).min())
+    return float(problem.mesh.volume_ratios(problem.positions(vector)).min())

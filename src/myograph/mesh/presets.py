@@ -5,7 +5,7 @@ import numpy as np
 from myograph.anatomy.body import muscle_body
 from myograph.anatomy.model import Arm
 from myograph.errors import InputError
-from myograph.mesh.hexahedra import HexMesh
+from myograph.mesh.muscle_mesh import MuscleMesh
 from myograph.mesh.quality import check_mesh
 from myograph.mesh.sweep import Resolution, Tube, sweep
 
@@ -23,11 +23,11 @@ def resolution(preset: str) -> Resolution:
     return RESOLUTIONS[preset]
 
 
-def muscle_mesh(arm: Arm, name: str, size: Resolution) -> HexMesh:
+def muscle_mesh(arm: Arm, name: str, size: Resolution) -> MuscleMesh:
     """Checked mesh of the named muscle in the reference pose."""
     muscle = arm.muscles[name]
     body = muscle_body(arm, name, 2 * size.along + 1)
     flattening = np.full(len(body.areas), muscle.flattening)
-    mesh = sweep(Tube(body.centres, body.areas, flattening, arm.hinge.frame().axis), size)
+    mesh = sweep(Tube(body.centres, body.areas, flattening, arm.hinge.frame().axis, body.length), size)
     check_mesh(mesh, name)
     return mesh

@@ -5,13 +5,16 @@ direction, so that the mesh does not twist.
 """
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float, Int
 
-from myograph.mesh.hexahedra import HexMesh
+from myograph.mesh.hexahedra import HEX27
+from myograph.mesh.muscle_mesh import MuscleMesh
 from myograph.mesh.section import Section, o_grid
+
+_MIRRORED = (6, 7, 8, 3, 4, 5, 0, 1, 2)
+"""Nodes of a 9-node facet seen from its other side."""
 
 
 @dataclass(frozen=True)
@@ -37,15 +40,18 @@ class Tube:
         Lateral over other half-axis of the elliptic sections.
     lateral
         Direction that the sections' first axis follows.
+    length
+        Length of the centre line [mm].
     """
 
     centres: Float[np.ndarray, "stations 3"]
     areas: Float[np.ndarray, " stations"]
     flattening: Float[np.ndarray, " stations"]
     lateral: Float[np.ndarray, " 3"]
+    length: float
 
 
-def sweep(tube: Tube, resolution: Resolution) -> HexMesh:
+def sweep(tube: Tube, resolution: Resolution) -> MuscleMesh:
     """Hexahedra along the tube; the tube must have 2 x resolution.along + 1 stations."""
     section = o_grid(resolution.core, resolution.rings)
     stations, per_station = len(tube.centres), len(section.nodes)
@@ -59,13 +65,14 @@ def sweep(tube: Tube, resolution: Resolution) -> HexMesh:
     layers = np.arange(stations) * per_station
     cells = [section.quads + layer for layer in layers]
     hexahedra = [np.hstack(cells[2 * k : 2 * k + 3]) for k in range(resolution.along)]
-    return HexMesh(
+    return MuscleMesh(
+        element=HEX27,
         points=(tube.centres[:, None] + offsets).reshape(-1, 3),
         cells=np.vstack(hexahedra),
+        facets=_facets(section, layers),
         along=np.repeat(np.linspace(0, 1, stations), per_station),
         area=np.repeat(tube.areas, per_station),
-        skin=_skin(section, layers),
-        facets=_facets(section, layers),
+        length=tube.length,
     )
 
 
@@ -78,28 +85,10 @@ def _frames(tube: Tube) -> tuple[np.ndarray, np.ndarray]:
     return first, np.cross(tangent, first)
 
 
-def _skin(section: Section, layers: Int[np.ndarray, " stations"]) -> Int[np.ndarray, "quads 4"]:
-    """Linear quadrilaterals of the whole surface."""
-    rim, following = section.rim, np.roll(section.rim, -1)
-    mantle = [
-        np.stack([rim + low, following + low, following + high, rim + high], axis=1) for low, high in pairwise(layers)
-    ]
-    grids = section.quads.reshape(-1, 3, 3)
-    caps = [
-        np.stack([grids[:, j, i], grids[:, j, i + 1], grids[:, j + 1, i + 1], grids[:, j + 1, i]], axis=1)
-        for j in (0, 1)
-        for i in (0, 1)
-    ]
-    cap = np.vstack(caps)
-    return np.vstack([*mantle, cap[:, ::-1] + layers[0], cap + layers[-1]])
-
-
 def _facets(section: Section, layers: Int[np.ndarray, " stations"]) -> dict[str, np.ndarray]:
-    """Vertices of the curved facets: the mantle, and the two end faces."""
-    corners, following = section.rim[::2], np.roll(section.rim[::2], -1)
-    mantle = [
-        np.stack([corners + low, following + low, following + high, corners + high], axis=1)
-        for low, high in zip(layers[:-1:2], layers[2::2], strict=True)
-    ]
-    face = section.quads[:, [0, 2, 8, 6]]
-    return {"skin": np.vstack(mantle), "origin": face[:, ::-1] + layers[0], "insertion": face + layers[-1]}
+    """Nine nodes of each curved facet: of the mantle, and of the two end faces."""
+    count = len(section.rim)
+    around = section.rim[(np.arange(0, count, 2)[:, None] + np.arange(3)) % count]
+    mantle = [np.hstack([around + layer for layer in layers[k : k + 3]]) for k in range(0, len(layers) - 2, 2)]
+    face = section.quads
+    return {"skin": np.vstack(mantle), "origin": face[:, _MIRRORED] + layers[0], "insertion": face + layers[-1]}

@@ -3,9 +3,8 @@
 import numpy as np
 from jaxtyping import Float
 
-from myograph.anatomy.body import muscle_body
 from myograph.anatomy.model import Arm, Tendons
-from myograph.mesh.hexahedra import HexMesh
+from myograph.mesh.muscle_mesh import MuscleMesh
 
 
 def muscle_fraction(along: Float[np.ndarray, " nodes"], length: float, tendons: Tendons) -> Float[np.ndarray, " nodes"]:
@@ -24,6 +23,6 @@ def muscle_fraction(along: Float[np.ndarray, " nodes"], length: float, tendons: 
     return ramp**2 * (3 - 2 * ramp)
 
 
-def tendon_share(arm: Arm, name: str, mesh: HexMesh) -> Float[np.ndarray, " nodes"]:
+def tendon_share(arm: Arm, name: str, mesh: MuscleMesh) -> Float[np.ndarray, " nodes"]:
     """Fraction of tendon at each node of the named muscle."""
-    return 1 - muscle_fraction(mesh.along, muscle_body(arm, name, 3).length, arm.muscles[name].tendons)
+    return 1 - muscle_fraction(mesh.along, mesh.length, arm.muscles[name].tendons)

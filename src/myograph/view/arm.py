@@ -30,7 +30,7 @@ def draw_arm(surfaces: Sequence[Surface], title: str = "", camera: Camera | None
     axes = figure.add_subplot()
     set_stage(axes, extent)
     axes.set_title(title, color=INK, fontsize=10)
-    draw_surfaces(axes, viewer, [_painted(surface) for surface in surfaces])
+    draw_surfaces(axes, viewer, [painted(surface) for surface in surfaces])
     draw_scale_bar(axes, extent)
     named = {surface.name: surface.colour for surface in surfaces if surface.name}
     if any(surface.tendon is not None for surface in surfaces):
@@ -40,8 +40,8 @@ def draw_arm(surfaces: Sequence[Surface], title: str = "", camera: Camera | None
     return png(figure)
 
 
-def _painted(surface: Surface) -> PaintedSurface:
-    """Colour of the belly, faded into tendon where there is some."""
+def painted(surface: Surface) -> PaintedSurface:
+    """The surface in the colour of its belly, faded into tendon where there is some."""
     from matplotlib.colors import to_rgb
 
     fraction = np.zeros(len(surface.points)) if surface.tendon is None else np.clip(surface.tendon, 0, 1)

@@ -1,0 +1,1 @@
+"""Published reference values and closed forms, and what our finite elements give for them."""
