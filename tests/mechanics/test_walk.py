@@ -6,19 +6,22 @@ import pytest
 from myograph.anatomy.load import built_in_arm
 from myograph.errors import NotConvergedError
 from myograph.mechanics import muscle as muscle_module
-from myograph.mechanics.continuation import Controls, reach, set_controls
+from myograph.mechanics.continuation import Controls, at_rest, reach, set_controls
 from myograph.mechanics.muscle import FailedState, FiniteElementMuscle, MuscleState
 from myograph.mechanics.predictor import extrapolated, flexion_rate
+from tests.mechanics.conftest import problem_of
 
 
-def test_the_rate_is_the_derivative_of_solved_states_over_the_flexion(biceps, solved):
-    step, here = 2e-4, solved.controls.flexion
-    ends = [reach(biceps, solved, Controls(1.0, 0.5, here + sign * step)).vector for sign in (-1, 1)]
-    set_controls(biceps, solved.controls)
-    rate = flexion_rate(biceps, solved.vector, here)
+def test_the_rate_is_the_derivative_of_solved_states_over_the_flexion():
+    """Of a muscle on which a bone and bands of the forearm push."""
+    problem, here, step = problem_of("brachioradialis"), 0.8, 2e-4
+    solved = reach(problem, at_rest(problem), Controls(1.0, 0.0, here))
+    ends = [reach(problem, solved, Controls(1.0, 0.0, here + sign * step)).vector for sign in (-1, 1)]
+    set_controls(problem, solved.controls)
+    rate = flexion_rate(problem, solved.vector, here)
     difference = (ends[1] - ends[0]) / (2 * step)
-    forces = 3 * biceps.space.scalar.ndof
-    assert np.linalg.norm((rate - difference)[:forces]) < 1e-4 * np.linalg.norm(rate[:forces])
+    forces = 3 * problem.space.scalar.ndof
+    assert np.linalg.norm((rate - difference)[:forces]) < 1e-3 * np.linalg.norm(rate[:forces])
 
 
 def test_the_extrapolation_is_exact_on_parabolas():

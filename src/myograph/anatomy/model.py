@@ -104,11 +104,12 @@ class Band(Model):
 class Contact(Model):
     """Rigid obstacles, a pulley about the hinge's axis [radius, mm] and bones by name; elastic bands.
 
-    Stiffnesses in N/mm³, `softness` in mm: the gap within which an obstacle begins to push.
+    Stiffnesses in N/mm³: of bones `stiffness`, and on slim tendon `tendon_stiffness` more, which is also that of the
+    pulley; `softness` [mm] is the gap within which an obstacle begins to push.
     """
 
     pulley: Annotated[float, Field(ge=0)] = 0.0
-    pulley_stiffness: Positive = 8.0
+    tendon_stiffness: Positive = 8.0
     bones: tuple[str, ...] = ()
     stiffness: Positive = 0.5
     softness: Positive = 0.5

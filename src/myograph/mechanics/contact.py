@@ -7,9 +7,9 @@ which holds a piece of the muscle near a bone and lets it slide along. The bones
 gaps are taken at the place where a point was before the forearm turned. Bands grow with the ramp of the pre-stretch.
 
 Traps: s is smooth, else Newton chatters, and vanishes exponentially: an algebraic tail pushes from afar as hard as a
-slack muscle pulls. A bone does not push where the muscle grows out of it, the first and the last tenth. The pulley is
-soft on the belly and stiff on the tendon: k shrinks where the section is over 50 mm². The humerus ends at the hinge:
-as an endless line it blocks the insertion.
+slack muscle pulls. A bone does not push where the muscle grows out of it, the first and the last tenth. Obstacles are
+stiff on the tendon and soft on the belly: a part of k shrinks where the section is over 50 mm². The humerus ends at the
+hinge: as an endless line it blocks the insertion.
 """
 
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ from myograph.anatomy.model import ATTACHED, Arm, Bone, Contact
 from myograph.mechanics.law import positive
 
 _TENDON_AREA = 50.0
-"""Section [mm²] above which the pulley is softer."""
+"""Section [mm²] above which obstacles are softer."""
 Field = ngs.CoefficientFunction
 
 
@@ -52,11 +52,10 @@ def fixed_energy(arm: Arm, contact: Contact, skin: Skin) -> Field | None:
     """Energy per skin area [N/mm] of the pulley and of the bones that stand still; None without obstacles."""
     energies = []
     if contact.pulley > 0:
-        softer = _TENDON_AREA / (_TENDON_AREA + positive(skin.area - _TENDON_AREA, 1.0))
         gap = _axis_distance(arm.hinge.frame(), skin.place) - contact.pulley
-        energies.append(contact.pulley_stiffness * softer * _penalty(gap, contact.softness))
+        energies.append(_on_tendon(contact, skin) * _penalty(gap, contact.softness))
     fixed = [arm.bones[name] for name in contact.bones if arm.bones[name].moves_with == "upper arm"]
-    energies += [_bone_energy(bone, contact, skin.place, skin.along) for bone in fixed]
+    energies += [_bone_energy(bone, contact, skin, skin.place) for bone in fixed]
     return _sum(energies)
 
 
@@ -64,7 +63,7 @@ def turning_energy(arm: Arm, contact: Contact, skin: Skin, turn: Turn, ramp: Fie
     """Energy per skin area [N/mm] of all that depends on the elbow's angle, and of the bands; None without them."""
     before = _unturned(arm.hinge.frame(), skin.place, turn)
     turning = [arm.bones[name] for name in contact.bones if arm.bones[name].moves_with == "forearm"]
-    energies = [_bone_energy(bone, contact, before, skin.along) for bone in turning]
+    energies = [_bone_energy(bone, contact, skin, before) for bone in turning]
     for band in contact.bands:
         bone = arm.bones[band.bone]
         window = ngs.exp(-(((skin.along - band.place) / band.width) ** 2))
@@ -73,9 +72,15 @@ def turning_energy(arm: Arm, contact: Contact, skin: Skin, turn: Turn, ramp: Fie
     return _sum(energies)
 
 
-def _bone_energy(bone: Bone, contact: Contact, place: Field, along: Field) -> Field:
-    free = _ramp(along) * _ramp(1 - along)
-    return contact.stiffness * free * _penalty(_capsule_distance(bone, place) - bone.radius, contact.softness)
+def _bone_energy(bone: Bone, contact: Contact, skin: Skin, place: Field) -> Field:
+    """Of one bone, with the skin at `place` while the bone stands as in the reference pose."""
+    stiffness = _ramp(skin.along) * _ramp(1 - skin.along) * (contact.stiffness + _on_tendon(contact, skin))
+    return stiffness * _penalty(_capsule_distance(bone, place) - bone.radius, contact.softness)
+
+
+def _on_tendon(contact: Contact, skin: Skin) -> Field:
+    """Stiffness [N/mm³] that shrinks where the section grows beyond that of a tendon."""
+    return contact.tendon_stiffness * _TENDON_AREA / (_TENDON_AREA + positive(skin.area - _TENDON_AREA, 1.0))
 
 
 def _ramp(share: Field) -> Field:

@@ -17,6 +17,9 @@ from myograph.mesh.muscle_mesh import MuscleMesh
 from myograph.mesh.presets import muscle_mesh, resolution
 from myograph.units import degrees
 
+_MANY_CELLS = 300
+"""Elements from which on machine code for the energy is worth the time that it takes to make."""
+
 
 @dataclass(frozen=True)
 class MuscleState:
@@ -56,18 +59,18 @@ class FailedState:
 
 
 class FiniteElementMuscle:
-    """The named muscle of an arm on the mesh of a preset; one thread, one process.
+    """The named muscle of an arm on the mesh of a preset, or on one of your own; one thread, one process.
 
     Raises InputError for an unknown muscle or preset, for a body that cannot be meshed or starts inside a bone.
     """
 
-    def __init__(self, arm: Arm, name: str, preset: str) -> None:
+    def __init__(self, arm: Arm, name: str, preset: str = "quick", mesh: MuscleMesh | None = None) -> None:
         check_muscle(name)
         ngs.SetNumThreads(1)
         ngs.ngsglobals.msg_level = 0
         self.arm = arm
-        self.mesh: MuscleMesh = muscle_mesh(arm, name, resolution(preset))
-        self._problem = MuscleProblem(arm, name, self.mesh, native=preset == "thesis")
+        self.mesh = muscle_mesh(arm, name, resolution(preset)) if mesh is None else mesh
+        self._problem = MuscleProblem(arm, name, self.mesh, native=len(self.mesh.cells) > _MANY_CELLS)
         check_clear(self._problem)
         self._reader = FieldReader(self._problem)
 

@@ -1,9 +1,10 @@
 """The along-muscle coordinate and the section areas of a body that was not swept along a line.
 
-Both come from the potential u between origin and insertion. Its level surfaces are the sections, their middles the
-centre line. With the flux Φ = ∫ |∇u|² dV, a step of the line is about ds = A du / Φ, so that the rough length below a
-level is s = Σ w |∇u| / Φ over the integration points (of volume w) below it; the line through the middles of slabs of
-equal rough length gives the true one. The area of a section is A(s) = dV/ds, smoothed.
+Both come from the potential u between origin and insertion, whose level surfaces are the sections. With the flux
+Φ = ∫ |∇u|² dV and the area A(u) of a level surface, a step along the muscle is ds = A du / Φ = (∫ |∇u| dV over the
+slab) / Φ; s is scaled to the length of the line through the middles of the sections. The area of a section is
+A(s) = dV/ds, smoothed. The integrals over slabs are exact for a potential that is linear on the eight small
+tetrahedra that the nodes of each element make.
 """
 
 from dataclasses import dataclass
@@ -14,12 +15,10 @@ from scipy.interpolate import PchipInterpolator
 from scipy.signal import savgol_filter
 
 from myograph.errors import InputError
-from myograph.mesh.laplace import potential, space_gradients
-from myograph.mesh.tetrahedra import TET10, subdivided_rule
+from myograph.mesh.laplace import potential
+from myograph.mesh.tetrahedra import SMALL, TET10
 
-SLABS = 100
-_MIDDLES = (np.arange(SLABS) + 0.5) / SLABS
-_WINDOW = 7
+_LEVELS, _SECTIONS, _LINE, _WINDOW = 300, 100, 25, 7
 _STILL, _STILL_SHARE = 0.01, 0.0005
 """Gradient over that of its section below which fibres have no direction, and the share of the volume that may."""
 
@@ -36,18 +35,19 @@ class Stations:
 
 
 @dataclass(frozen=True)
-class _Samples:
-    """Integration points in the order of their potential: potential, slope [1/mm], place [mm], volume [mm³]."""
+class _Pieces:
+    """Small tetrahedra: potential at the corners in rising order, slope [1/mm], middle [mm], volume [mm³]."""
 
-    level: Float[np.ndarray, " samples"]
-    slope: Float[np.ndarray, " samples"]
-    place: Float[np.ndarray, "samples 3"]
-    volume: Float[np.ndarray, " samples"]
+    levels: Float[np.ndarray, "pieces 4"]
+    slope: Float[np.ndarray, " pieces"]
+    middle: Float[np.ndarray, "pieces 3"]
+    volume: Float[np.ndarray, " pieces"]
 
-    @property
-    def steps(self) -> Float[np.ndarray, " samples"]:
-        """Rough length [mm] that each point adds to the line."""
-        return self.volume * self.slope / (self.volume @ self.slope**2)
+    def below(
+        self, level: Float[np.ndarray, " levels"], weights: Float[np.ndarray, "pieces sums"]
+    ) -> Float[np.ndarray, "levels sums"]:
+        """For each level, the weights summed over the shares of the pieces that lie below it."""
+        return np.stack([_share_below(each, self.levels) @ weights for each in level])
 
 
 def stations(
@@ -57,59 +57,68 @@ def stations(
 
     Raises InputError where a part of the body lies beside the way from face to face: fibres have no direction there.
     """
-    values = potential(TET10, points, cells, ends)
-    samples = _samples(points, cells, values)
-    steps = samples.steps
-    total, rough = float(steps.sum()), np.cumsum(steps) - 0.5 * steps
-    share, length = _centre_line(samples, rough / total, points[ends[0]].mean(axis=0), points[ends[1]].mean(axis=0))
-    slab = _slab(share(rough / total))
-    sections = np.bincount(slab, samples.volume, SLABS) * SLABS / length
-    if sections.min() <= 0:
-        raise InputError(f"mesh of {name}: its elements are as long as the body; choose a smaller element size")
-    _check_directions(samples, sections[slab], name)
-    below = np.interp(values, np.hstack([0.0, samples.level, 1.0]), np.hstack([0.0, rough / total, 1.0]))
-    along = np.clip(share(below), 0.0, 1.0)
-    along[ends[0]], along[ends[1]] = 0.0, 1.0
-    smooth = savgol_filter(np.log(sections), _WINDOW, 2)
-    return Stations(along, np.exp(np.interp(along, _MIDDLES, np.asarray(smooth))), length)
+    values = np.clip(potential(TET10, points, cells, ends), 0.0, 1.0)
+    pieces = _pieces(points, cells, values)
+    levels = np.unique(np.quantile(values, np.linspace(0, 1, _LEVELS)))
+    flux = pieces.volume @ pieces.slope**2
+    steps = pieces.volume * pieces.slope / flux
+    sums = pieces.below(levels, np.column_stack([steps, pieces.volume, steps[:, None] * pieces.middle]))
+    rising = np.concatenate([[True], np.diff(sums[:, 0]) > 1e-9 * sums[-1, 0]])
+    levels, sums = levels[rising], sums[rising]
+    share = sums[:, 0] / sums[-1, 0]
+    length = _line_length(share, sums[:, 2:] / sums[-1, 0], points[ends[0]].mean(axis=0), points[ends[1]].mean(axis=0))
+    along = np.clip(np.interp(values, levels, share), 0.0, 1.0)
+    edges = np.linspace(0, 1, _SECTIONS + 1)
+    sections = np.diff(np.interp(edges, share, sums[:, 1])) * _SECTIONS / length
+    _check_directions(
+        pieces, np.interp(pieces.levels.mean(axis=1), levels[1:], np.diff(sums[:, 1]) / np.diff(levels)), name
+    )
+    smooth = np.asarray(savgol_filter(np.log(sections), _WINDOW, 2))
+    return Stations(along, np.exp(np.interp(along, edges[:-1] + 0.5 / _SECTIONS, smooth)), length)
 
 
-def _centre_line(
-    samples: _Samples, rough: Float[np.ndarray, " samples"], start: np.ndarray, end: np.ndarray
-) -> tuple[PchipInterpolator, float]:
-    """Function from the share of the rough length to that of the true one, and the true length [mm]."""
-    slab, steps = _slab(rough), samples.steps
-    weight = np.maximum(np.bincount(slab, steps, SLABS), 1e-300)
-    middles = np.stack([np.bincount(slab, steps * x, SLABS) / weight for x in samples.place.T], axis=1)
-    line = np.vstack([start, middles, end])
-    reached = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
-    return PchipInterpolator(np.hstack([0.0, _MIDDLES, 1.0]), reached / reached[-1]), float(reached[-1])
-
-
-def _slab(share: Float[np.ndarray, " samples"]) -> Int[np.ndarray, " samples"]:
-    return np.clip((share * SLABS).astype(int), 0, SLABS - 1)
-
-
-def _samples(
+def _pieces(
     points: Float[np.ndarray, "nodes 3"], cells: Int[np.ndarray, "cells 10"], values: Float[np.ndarray, " nodes"]
-) -> _Samples:
-    rule = subdivided_rule()
-    gradients, volumes = space_gradients(TET10, points, cells, rule)
-    shape = TET10.values(rule[0])
-    level = (values[cells] @ shape.T).ravel()
-    slope = np.linalg.norm(np.einsum("cqna,cn->cqa", gradients, values[cells]), axis=2).ravel()
-    place = np.einsum("qn,cna->cqa", shape, points[cells]).reshape(-1, 3)
-    order = np.argsort(level)
-    return _Samples(level[order], slope[order], place[order], volumes.ravel()[order])
+) -> _Pieces:
+    corners = cells[:, SMALL].reshape(-1, 4)
+    places, levels = points[corners], values[corners]
+    sides = places[:, 1:] - places[:, :1]
+    slope = np.linalg.norm(np.linalg.solve(sides, (levels[:, 1:] - levels[:, :1])[..., None])[..., 0], axis=1)
+    return _Pieces(np.sort(levels, axis=1), slope, places.mean(axis=1), np.abs(np.linalg.det(sides)) / 6)
 
 
-def _check_directions(samples: _Samples, section: Float[np.ndarray, " samples"], name: str) -> None:
-    """The flux through a section is that through all; where a part of it carries none, no fibres lead through."""
-    flux = samples.volume @ samples.slope**2
-    still = samples.slope * section < _STILL * flux
-    volume = float(samples.volume[still].sum())
-    if volume > _STILL_SHARE * samples.volume.sum():
-        centre = (samples.volume[still] @ samples.place[still] / volume).round(1).tolist()
+def _share_below(level: float, corners: Float[np.ndarray, "pieces 4"]) -> Float[np.ndarray, " pieces"]:
+    """Share of each tetrahedron in which a linear function with these values at the corners, rising, is below a level.
+
+    A corner is cut off below the second value and above the third; between them, three tetrahedra lie below.
+    """
+    a, b, c, d = corners.T
+
+    def ratio(low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        return np.clip((level - low) / np.maximum(high - low, 1e-300), 0.0, 1.0)
+
+    ac, ad, bc, bd = ratio(a, c), ratio(a, d), ratio(b, c), ratio(b, d)
+    between = bc * bd + ac * bd * (1 - bc) + ac * ad * (1 - bd)
+    above = 1 - (1 - ratio(a, d)) * (1 - bd) * (1 - ratio(c, d))
+    return np.where(level < b, ratio(a, b) * ac * ad, np.where(level < c, between, above))
+
+
+def _line_length(
+    share: Float[np.ndarray, " levels"], sums: Float[np.ndarray, "levels 3"], start: np.ndarray, end: np.ndarray
+) -> float:
+    """Length [mm] of the line through the middles of slabs of equal steps, from the one face to the other."""
+    at = np.linspace(0, 1, _LINE + 1)
+    middles = np.diff(PchipInterpolator(share, sums)(at), axis=0) * _LINE
+    return float(np.linalg.norm(np.diff(np.vstack([start, middles, end]), axis=0), axis=1).sum())
+
+
+def _check_directions(pieces: _Pieces, growth: Float[np.ndarray, " pieces"], name: str) -> None:
+    """`growth` is dV/du = A² / Φ of the section through each piece, where slopes should be near Φ / A."""
+    usual = np.sqrt(pieces.volume @ pieces.slope**2 / np.maximum(growth, 1e-300))
+    still = pieces.slope < _STILL * usual
+    volume = float(pieces.volume[still].sum())
+    if volume > _STILL_SHARE * pieces.volume.sum():
+        centre = (pieces.volume[still] @ pieces.middle[still] / volume).round(1).tolist()
         raise InputError(
             f"mesh of {name}: the fibres have no direction in {volume / 1000:.2f} cm³ around {centre} mm, which lie"
             " beside the way from the origin to the insertion; expected the two at the ends of the body: move them,"

@@ -11,6 +11,10 @@ from myograph.mesh.element import Element
 
 EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
 """Corners of each edge, in the order of the nodes at their middles."""
+SMALL = (
+    (0, 4, 6, 7), (4, 1, 5, 8), (6, 5, 2, 9), (7, 8, 9, 3), (4, 5, 6, 8), (6, 8, 7, 4), (6, 5, 9, 8), (6, 9, 7, 8)
+)  # fmt: skip
+"""Nodes of the eight small tetrahedra that an element's nodes make."""
 _CORNERS = np.vstack([np.zeros((1, 3)), np.eye(3)])
 _SLOPES = np.array([[-1.0, -1.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
 """Derivatives of the four shares of the corners."""
@@ -45,23 +49,6 @@ def _rule() -> tuple[Float[np.ndarray, "14 3"], Float[np.ndarray, " 14"]]:
     for row, (a, b) in enumerate(EDGES):
         middle[row, [a, b]] = share
     return np.vstack([*places, middle])[:, 1:], np.array(weights + [0.007091003462846911] * 6)
-
-
-def subdivided_rule() -> tuple[Float[np.ndarray, "112 3"], Float[np.ndarray, " 112"]]:
-    """The rule on the eight small tetrahedra that the middles of the edges make: for looking closely."""
-    nodes, (places, weights) = TET10.nodes, _rule()
-    small = [
-        (0, 4, 6, 7),
-        (4, 1, 5, 8),
-        (6, 5, 2, 9),
-        (7, 8, 9, 3),
-        (4, 5, 6, 8),
-        (6, 8, 7, 4),
-        (6, 5, 9, 8),
-        (6, 9, 7, 8),
-    ]
-    all_places = [_shares(places) @ nodes[list(corners)] for corners in small]
-    return np.vstack(all_places), np.tile(weights / 8, 8)
 
 
 TET10 = Element(

@@ -9,7 +9,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from myograph.errors import InputError
-from myograph.mesh.surface.intersections import cutting_pairs
+from myograph.mesh.surface.intersections import cutting_pairs, meeting_place
 
 SMALLEST_ANGLE = np.radians(0.5)
 """Of a triangle; thinner ones are needles whose normal is a matter of rounding."""
@@ -61,8 +61,7 @@ def check_uncut(points: Points, triangles: Triangles, name: str) -> None:
     pairs = cutting_pairs(points, triangles)
     if len(pairs):
         pair = pairs[0].tolist()
-        corners = points[triangles[pair]]
-        shared = 0.5 * (corners.min(axis=1).max(axis=0) + corners.max(axis=1).min(axis=0))
+        shared = meeting_place(*points[triangles[pair]])
         raise InputError(
             f"{name}: triangles {pair[0]} and {pair[1]} cut each other near {_place(shared[None])} mm; expected a"
             " surface that does not meet itself: pull the two parts apart or unite them in a mesh editor"

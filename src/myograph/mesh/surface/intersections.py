@@ -27,6 +27,20 @@ def cutting_pairs(
     return np.vstack(cut)
 
 
+def meeting_place(one: Float[np.ndarray, "3 3"], other: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, " 3"]:
+    """About where two triangles cut each other: the mean of where the sides of either pass the other."""
+    found = []
+    for sides, (a, b, c) in ((one, other), (other, one)):
+        normal = np.cross(b - a, c - a)
+        heights = (sides - a) @ normal
+        for k in range(3):
+            if heights[k] * heights[k - 1] < 0:
+                place = sides[k] + (sides[k - 1] - sides[k]) * heights[k] / (heights[k] - heights[k - 1])
+                shares = [np.cross(q - p, place - p) @ normal for p, q in ((a, b), (b, c), (c, a))]
+                found += [place] if min(shares) >= 0 else []
+    return np.mean(found or [one.mean(axis=0), other.mean(axis=0)], axis=0)
+
+
 def _near_pairs(low: Float[np.ndarray, "triangles 3"], high: Float[np.ndarray, "triangles 3"]) -> np.ndarray:
     """Pairs of boxes that overlap: swept along the longest direction."""
     axis = int(np.argmax(np.ptp(low, axis=0)))

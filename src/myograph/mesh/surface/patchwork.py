@@ -37,6 +37,14 @@ class Patchwork:
         """Both ends of every edge, the smaller number first."""
         return sorted({(min(p, q), max(p, q)) for t in self.triangles.values() for p, q in pairwise((*t, t[0]))})
 
+    def diagonals(self) -> tuple[np.ndarray, np.ndarray]:
+        """Both ends of every edge, and the other corners of its two triangles."""
+        third = {}
+        for a, b, c in self.triangles.values():
+            third[a, b], third[b, c], third[c, a] = c, a, b
+        edges = [(a, b) for a, b in third if a < b]
+        return np.array(edges), np.array([(third[a, b], third[b, a]) for a, b in edges])
+
     def beside(self, a: int, b: int) -> list[int]:
         """The triangles on an edge: two, or none where there is no such edge."""
         return sorted(self.around[a] & self.around[b])
@@ -99,10 +107,10 @@ class Patchwork:
         if self.is_rim(a, b) or self.beside(c, d) or min(len(self.around[a]), len(self.around[b])) < 4:
             return False
         old, new = (self.triangles[one], self.triangles[other]), ((a, d, c), (d, b, c))
+        if min(map(self.smallest_angle, new)) <= min(map(self.smallest_angle, old)):
+            return False
         normals = [self._normal(t) for t in (*old, *new)]
         if min(_cosine(normals[k], normals[2 + j]) for k in (0, 1) for j in (0, 1)) <= flat:
-            return False
-        if min(self.smallest_angle(t) for t in new) <= min(self.smallest_angle(t) for t in old):
             return False
         _, part = self._remove(one)
         self._remove(other)

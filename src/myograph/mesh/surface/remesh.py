@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float, Int
 
-from myograph.mesh.surface.checks import check_uncut
+from myograph.mesh.surface.checks import check_uncut, smallest_angles
 from myograph.mesh.surface.closed import neighbours
 from myograph.mesh.surface.creases import Creases
 from myograph.mesh.surface.drawn import Drawn
@@ -96,11 +96,20 @@ def _collapse_short(patchwork: Patchwork, sizes: Sizes, creases: Creases) -> Non
 
 
 def _flip(patchwork: Patchwork, creases: Creases) -> None:
-    """Flip what is not an edge of a crease."""
-    for a, b in patchwork.edges():
-        creased = min(creases.rank[a], creases.rank[b]) > 1 and _follows(patchwork, creases, a, b)
-        if not creased and len(patchwork.beside(a, b)) == 2:
-            patchwork.flip(a, b)
+    """Flip what is not an edge of a crease and would gain by it."""
+    edges, opposite = patchwork.diagonals()
+    points, (a, b), (c, d) = np.array(patchwork.points), edges.T, opposite.T
+    before = _smallest(points, ((a, b, c), (b, a, d)))
+    for k in np.flatnonzero(before < _smallest(points, ((a, d, c), (d, b, c)))):
+        one, other = int(a[k]), int(b[k])
+        creased = min(creases.rank[one], creases.rank[other]) > 1 and _follows(patchwork, creases, one, other)
+        if not creased and len(patchwork.beside(one, other)) == 2:
+            patchwork.flip(one, other)
+
+
+def _smallest(points: np.ndarray, pair: tuple[tuple[np.ndarray, ...], ...]) -> Float[np.ndarray, " edges"]:
+    """Smallest angle of each pair of triangles."""
+    return np.minimum(*(smallest_angles(points, np.stack(corners, axis=1)) for corners in pair))
 
 
 def _follows(patchwork: Patchwork, creases: Creases, a: int, b: int) -> bool:

@@ -28,7 +28,7 @@ def read_stl(path: Path) -> Float[np.ndarray, "triangles 3 3"]:
         data = path.read_bytes()
     except OSError as problem:
         raise InputError(f"{path}: cannot be read: {problem.strerror}; expected an STL file") from None
-    is_text = data.lstrip()[:5].lower() == b"solid" and b"facet" in data[:2000]
+    is_text = data.lstrip()[:5].lower() == b"solid" and _said(data) != _held(data)
     corners = _from_text(data, path) if is_text else _from_binary(data, path)
     if len(corners) == 0:
         raise InputError(f"{path}: expected an STL file with triangles, found none in it")
@@ -41,15 +41,23 @@ def read_stl(path: Path) -> Float[np.ndarray, "triangles 3 3"]:
 def _from_binary(data: bytes, path: Path) -> Float[np.ndarray, "triangles 3 3"]:
     if len(data) < _HEADER:
         raise InputError(f"{path}: expected an STL file, got {len(data)} bytes, fewer than its header has")
-    said = struct.unpack("<I", data[80:84])[0]
-    held, rest = divmod(len(data) - _HEADER, _RECORD)
-    if said != held or rest:
+    if _said(data) != _held(data):
         raise InputError(
-            f"{path}: not a whole STL file: its header says {said} triangles, the rest holds"
-            f" {(len(data) - _HEADER) / _RECORD:g}; fetch or export it again"
+            f"{path}: not a whole STL file: its header says {_said(data)} triangles, the rest holds"
+            f" {_held(data):g}; fetch or export it again"
         )
     record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
     return np.frombuffer(data, record, offset=_HEADER)["corners"].astype(float)
+
+
+def _said(data: bytes) -> int:
+    """Number of triangles that a binary file says it has."""
+    return struct.unpack("<I", data[80:84].ljust(4, b"\0"))[0]
+
+
+def _held(data: bytes) -> float:
+    """Number of triangles that a binary file has room for."""
+    return (len(data) - _HEADER) / _RECORD
 
 
 def _from_text(data: bytes, path: Path) -> Float[np.ndarray, "triangles 3 3"]:
