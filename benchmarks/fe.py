@@ -36,15 +36,15 @@ AGREEMENT = 0.01
 """Largest difference between the two answers, relative to the moment and to the largest displacement."""
 AIM = 3.0
 ROWS = {
-    "setup": "preparation [s]",
-    "matrix": "assembly of a tangent [s]",
-    "linear": "its linear solve [s]",
-    "rest": "rest of a Newton step [s]",
-    "step": "a Newton step [s]",
-    "walk": "all load steps [s]",
-    "cpu": "all load steps [s of processor]",
-    "total": "preparation and load steps [s]",
-    "memory_mb": "peak memory [MB]",
+    "setup": "preparation, s",
+    "matrix": "assembly of a tangent, s",
+    "linear": "its linear solve, s",
+    "rest": "rest of a Newton step, s",
+    "step": "a Newton step, s",
+    "walk": "all load steps, s",
+    "cpu": "all load steps, s of processor",
+    "total": "preparation and load steps, s",
+    "memory_mb": "peak memory, MB",
     "newton_steps": "Newton steps",
 }
 PER_STEP = ("matrix", "linear", "rest")
@@ -81,7 +81,10 @@ def make_environment(folder: Path) -> Path:
     """A virtual environment with FElupe and all that the variants need; its Python."""
     venv.create(folder, with_pip=True)
     python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
-    subprocess.run([python, "-m", "pip", "install", "--quiet", "felupe", *PACKAGES.values()], check=True)
+    install = [python, "-m", "pip", "install", "--quiet", "felupe", *PACKAGES.values()]
+    if subprocess.run(install).returncode:
+        sys.stderr.write(f"{folder}: pip could not install {' '.join(install[5:])}; its words are above\n")
+        sys.exit(2)
     return python
 
 
@@ -93,7 +96,7 @@ def missing(python: Path | None, variants: list[str]) -> str:
     modules = ["felupe", *sorted({PACKAGES[part] for variant in variants for part in variant.split("+")})]
     code = f"import importlib.util as u; print(*(m for m in {modules} if u.find_spec(m) is None))"
     try:
-        absent = subprocess.run([python, "-c", code], check=True, capture_output=True, text=True).stdout.split()
+        absent = subprocess.run([python, "-I", "-c", code], check=True, capture_output=True, text=True).stdout.split()
     except (OSError, subprocess.CalledProcessError) as problem:
         return f"--felupe-python: expected a Python that runs, got {python} ({problem}); {make}"
     if absent:

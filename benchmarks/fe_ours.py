@@ -20,7 +20,7 @@ import numpy as np
 import myograph.mechanics.problem as problem_module
 from myograph.anatomy.load import built_in_arm
 from myograph.anatomy.model import Arm, Contact
-from myograph.errors import InputError, MyographError
+from myograph.errors import InputError, MyographError, NotConvergedError
 from myograph.mechanics.algebra import Tangent
 from myograph.mechanics.continuation import Controls, set_controls
 from myograph.mechanics.newton import newton
@@ -126,7 +126,7 @@ def walk(name: str, preset: str, native: bool) -> tuple[dict, dict]:
         held = np.where(problem.free, 0.0, vector)
         result = newton(problem, vector, problem.boundary_values(load.flexion) - held)
         if result.failure:
-            raise MyographError(f"{name} at {load}: {result.failure}")
+            raise NotConvergedError(f"{name} at {load}: {result.failure}", residuals=result.residuals)
         vector, steps = result.vector, steps + len(result.residuals)
     seconds, cpu = time.perf_counter() - prepared, time.process_time() - worked
     answer = {"positions": problem.positions(vector), "moment": problem.moment(vector, TURN)}

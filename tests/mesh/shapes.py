@@ -8,6 +8,8 @@ from myograph.mesh.surface import closed_surface, skin_of
 from myograph.mesh.sweep import Resolution, Tube, sweep
 from myograph.mesh.tetrahedra import EDGES
 
+FINE = Resolution(core=4, rings=1, along=24)
+
 
 def box_triangles(size=(1.0, 1.0, 1.0), cells=(1, 1, 1)):
     """Points and outward triangles of a box whose faces are grids."""
@@ -31,7 +33,7 @@ def box(size=(1.0, 1.0, 1.0), cells=(1, 1, 1)):
     return closed_surface(*box_triangles(size, cells), "box")
 
 
-def spindle_mesh(ends=6.0, middle=18.0, length=100.0, size=Resolution(core=4, rings=1, along=24)):
+def spindle_mesh(ends=6.0, middle=18.0, length=100.0, size=FINE):
     """Swept hexahedra of round sections, slim at the ends, along z."""
     stations = 2 * size.along + 1
     share = np.linspace(0, 1, stations)

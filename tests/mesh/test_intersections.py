@@ -75,7 +75,9 @@ def test_the_meeting_place_lies_on_both():
 def test_pairs_are_found_among_many():
     """Two sheets of triangles, and one spike through both."""
     x, y = np.meshgrid(np.arange(8.0), np.arange(8.0), indexing="ij")
-    corners = [[[a, b, z], [a + 0.9, b, z], [a, b + 0.9, z]] for z in (0.0, 1.0) for a, b in zip(x.flat, y.flat)]
+    corners = [
+        [[a, b, z], [a + 0.9, b, z], [a, b + 0.9, z]] for z in (0.0, 1.0) for a, b in zip(x.flat, y.flat, strict=True)
+    ]
     corners.append([[3.2, 3.2, -1], [3.3, 3.2, 2], [3.2, 3.3, 2]])
     points = np.array(corners).reshape(-1, 3)
     pairs = cutting_pairs(points, np.arange(len(points)).reshape(-1, 3))

@@ -70,7 +70,7 @@ def _pinch(points, triangles):
 
 
 def _double_point(points, triangles):
-    a, b, c = triangles[0]
+    a, b, _ = triangles[0]
     return points, np.vstack([triangles, [[a, b, b]]])
 
 

@@ -36,7 +36,8 @@ class Stations:
 
 @dataclass(frozen=True)
 class _Pieces:
-    """Small tetrahedra: potential at the corners in rising order, slope [1/mm], middle [mm], volume [mm³]."""
+    """Small tetrahedra: potential at the corners in rising order, slope [1/mm], middle [mm], share of the curved
+    element's volume [mm³]."""
 
     levels: Float[np.ndarray, "pieces 4"]
     slope: Float[np.ndarray, " pieces"]
@@ -84,7 +85,9 @@ def _pieces(
     places, levels = points[corners], values[corners]
     sides = places[:, 1:] - places[:, :1]
     slope = np.linalg.norm(np.linalg.solve(sides, (levels[:, 1:] - levels[:, :1])[..., None])[..., 0], axis=1)
-    return _Pieces(np.sort(levels, axis=1), slope, places.mean(axis=1), np.abs(np.linalg.det(sides)) / 6)
+    straight = np.abs(np.linalg.det(sides)).reshape(len(cells), -1)
+    volume = straight * (TET10.volumes(points, cells).sum(axis=1) / straight.sum(axis=1))[:, None]
+    return _Pieces(np.sort(levels, axis=1), slope, places.mean(axis=1), volume.ravel())
 
 
 def _share_below(level: float, corners: Float[np.ndarray, "pieces 4"]) -> Float[np.ndarray, " pieces"]:
