@@ -30,23 +30,28 @@ from myograph.units import radians
 
 INCREMENTS, ACTIVATION, TURN = 8, 0.5, radians(5.0)
 LAWS = ("gauss", "toe_tendon")
-SECONDS = {"matrix": 0.0, "linear": 0.0}
-"""Of the tangent's assembly, and of its factorisation and use, since the last reset."""
+SECONDS = {"matrix": np.zeros(2), "linear": np.zeros(2)}
+"""Wall and processor, of the tangent's assembly, and of its factorisation and use, since the last reset."""
+
+
+def now() -> np.ndarray:
+    """Seconds of the wall's clock and of this process on its processor."""
+    return np.array([time.perf_counter(), time.process_time()])
 
 
 class TimedTangent(Tangent):
     """A tangent that counts its own seconds."""
 
     def __init__(self, matrix: ngs.BaseMatrix, free: ngs.BitArray) -> None:
-        started = time.perf_counter()
+        started = now()
         super().__init__(matrix, free)
-        SECONDS["linear"] += time.perf_counter() - started
+        SECONDS["linear"] += now() - started
 
     def solve(self, right: np.ndarray) -> np.ndarray:
         """Solution on the free unknowns."""
-        started = time.perf_counter()
+        started = now()
         result = super().solve(right)
-        SECONDS["linear"] += time.perf_counter() - started
+        SECONDS["linear"] += now() - started
         return result
 
 
@@ -55,9 +60,9 @@ class TimedProblem(MuscleProblem):
 
     def tangent(self, vector: np.ndarray) -> Tangent:
         """Second derivative of the energy, factored."""
-        started, factored = time.perf_counter(), SECONDS["linear"]
+        started, factored = now(), SECONDS["linear"].copy()
         result = super().tangent(vector)
-        SECONDS["matrix"] += time.perf_counter() - started - (SECONDS["linear"] - factored)
+        SECONDS["matrix"] += now() - started - (SECONDS["linear"] - factored)
         return result
 
 
@@ -116,11 +121,11 @@ def description(name: str, preset: str) -> dict[str, np.ndarray]:
 
 def walk(name: str, preset: str, native: bool) -> tuple[dict, dict]:
     """Go through all loads: where it ended, and what it took."""
-    started = time.perf_counter()
+    started = now()
     problem = build(name, preset, native)
     vector, steps = np.zeros(problem.vector_size), 0
-    SECONDS.update(matrix=0.0, linear=0.0)
-    prepared, worked = time.perf_counter(), time.process_time()
+    SECONDS.update(matrix=np.zeros(2), linear=np.zeros(2))
+    prepared = now()
     for load in loads():
         set_controls(problem, load)
         held = np.where(problem.free, 0.0, vector)
@@ -128,10 +133,10 @@ def walk(name: str, preset: str, native: bool) -> tuple[dict, dict]:
         if result.failure:
             raise NotConvergedError(f"{name} at {load}: {result.failure}", residuals=result.residuals)
         vector, steps = result.vector, steps + len(result.residuals)
-    seconds, cpu = time.perf_counter() - prepared, time.process_time() - worked
+    walked = now() - prepared
+    seconds = {"setup": prepared - started, "walk": walked, **SECONDS, "rest": walked - sum(SECONDS.values())}
     answer = {"positions": problem.positions(vector), "moment": problem.moment(vector, TURN)}
-    cost = {"setup": prepared - started, "walk": seconds, "cpu": cpu, **SECONDS, "newton_steps": steps}
-    return answer, cost | {"rest": seconds - sum(SECONDS.values()), "unknowns": problem.vector_size}
+    return answer, {**seconds, "newton_steps": steps, "unknowns": problem.vector_size}
 
 
 def main() -> None:
@@ -156,7 +161,7 @@ def main() -> None:
         sys.exit(_told(problem))
     np.savez(options.solve, **answer)
     cost["memory_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    sys.stdout.write(json.dumps(cost) + "\n")
+    sys.stdout.write(json.dumps(cost, default=list) + "\n")
 
 
 def _told(problem: MyographError) -> int:

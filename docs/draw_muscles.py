@@ -56,7 +56,7 @@ def solve(preset: str, name: str) -> list[tuple[float, float, Surface]]:
 def draw(solved: dict[str, list[tuple[float, float, Surface]]]) -> bytes:
     """A row a muscle, a column a pose; seen from the outer side, with the bones near it."""
     arm, camera = built_in_arm(), side_camera()
-    figure = new_figure(16.0, 15.0, SKY)
+    figure = new_figure(13.0, 12.2, SKY)
     rows = figure.subplots(len(solved), len(ANGLES) * len(ACTIVATIONS))
     for row, (name, poses) in zip(rows, solved.items(), strict=True):
         for axes, (angle, activation, skin) in zip(row, sorted(poses, key=lambda pose: pose[:2]), strict=True):

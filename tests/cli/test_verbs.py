@@ -58,7 +58,7 @@ def test_solve_prints_one_json_object_and_writes_the_fields(tmp_path):
         ({"activation": "1.5"}, "activation of biceps: expected a number in [0, 1], got 1.5"),
         ({"activation": "nan"}, "expected a number in [0, 1], got nan"),
         ({"activation": "much"}, "activation"),
-        ({"angle": "170"}, "elbow angle: expected 20 to 120 degrees, got 170"),
+        ({"angle": "170"}, "elbow angle: expected 10 to 150 degrees, got 170"),
         ({"angle": "nan"}, "elbow angle"),
         ({"preset": "huge"}, "unknown preset 'huge'"),
         ({"arm": "nowhere.toml"}, "nowhere.toml: expected a TOML file"),
