@@ -19,6 +19,7 @@ from myograph.mesh.surface.attachments import Attachments, surface_parts
 from myograph.mesh.surface.closed import ClosedSurface
 from myograph.mesh.surface.curving import curved
 from myograph.mesh.surface.drawn import Drawn
+from myograph.mesh.surface.opening import opened
 from myograph.mesh.surface.remesh import remesh
 from myograph.mesh.surface.sizes import element_sizes
 from myograph.mesh.tetrahedra import TET10
@@ -41,7 +42,8 @@ def surface_mesh(surface: ClosedSurface, attachments: Attachments, size: float, 
     sizes = element_sizes(surface, size)
     drawn = Drawn(surface, surface_parts(surface, attachments), sizes)
     skin = remesh(drawn, sizes)
-    points, cells, facets = curved(*filled(skin.points, skin.triangles, size, name), skin, drawn)
+    vertices, tetrahedra = filled(skin.points, skin.triangles, size, name)
+    points, cells, facets = curved(*opened(vertices, tetrahedra, skin), skin, drawn)
     ends = (np.unique(facets["origin"]), np.unique(facets["insertion"]))
     places = stations(points, cells, ends, name)
     mesh = MuscleMesh(TET10, points, cells, facets, places.along, places.area, places.length)
