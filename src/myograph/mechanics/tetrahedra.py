@@ -19,7 +19,6 @@ from myograph.mesh.surface.attachments import Attachments, surface_parts
 from myograph.mesh.surface.closed import ClosedSurface
 from myograph.mesh.surface.curving import curved
 from myograph.mesh.surface.drawn import Drawn
-from myograph.mesh.surface.opening import opened
 from myograph.mesh.surface.remesh import remesh
 from myograph.mesh.surface.sizes import element_sizes
 from myograph.mesh.tetrahedra import TET10
@@ -42,8 +41,7 @@ def surface_mesh(surface: ClosedSurface, attachments: Attachments, size: float, 
     sizes = element_sizes(surface, size)
     drawn = Drawn(surface, surface_parts(surface, attachments), sizes)
     skin = remesh(drawn, sizes)
-    vertices, tetrahedra = filled(skin.points, skin.triangles, size, name)
-    points, cells, facets = curved(*opened(vertices, tetrahedra, skin), skin, drawn)
+    points, cells, facets = curved(*filled(skin.points, skin.triangles, size, name), skin, drawn)
     ends = (np.unique(facets["origin"]), np.unique(facets["insertion"]))
     places = stations(points, cells, ends, name)
     mesh = MuscleMesh(TET10, points, cells, facets, places.along, places.area, places.length)

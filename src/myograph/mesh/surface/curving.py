@@ -1,8 +1,8 @@
 """Straight tetrahedra become quadratic ones whose skin follows the surface that was drawn.
 
 The middle of every edge on the skin moves to the nearest point of its part of that surface, the middle of an edge of
-a rim to the nearest point of the rim. Where that spoils an element, its middles go back, a tenth at a time, until it is
-well-shaped or straight.
+a rim to the nearest point of the rim. Two facets of one element that meet in an edge of the skin become tangent there
+and spoil it; the middles of such elements go back, a tenth at a time, until it is well-shaped or straight.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ from myograph.mesh.surface.drawn import Drawn
 from myograph.mesh.surface.remesh import Remeshed
 from myograph.mesh.tetrahedra import EDGES, TET10
 
-_SPOILT = 0.1
+_SPOILT = 0.05
 """Scaled Jacobian below which an element's middles go back."""
 _BACK, _ROUNDS = 0.9, 25
 
