@@ -133,7 +133,7 @@ def test_elements_that_lose_too_much_volume_are_refused(surface, monkeypatch):
 def test_a_surface_that_netgen_cannot_fill_is_refused(capfd):
     """Two boxes, one through the other; its own words go to the terminal."""
     one, other = box((4.0, 4.0, 4.0)), box((2.0, 2.0, 12.0))
-    points = np.vstack([one.points, (*other.points, 1.0, 1.0, -4.0)])
+    points = np.vstack([one.points, other.points + np.array([1.0, 1.0, -4.0])])
     with pytest.raises(InputError, match="mesh of star: Netgen cannot fill the surface"):
         filled(points, np.vstack([one.triangles, other.triangles + len(one.points)]), 4.0, "star")
     capfd.readouterr()
