@@ -73,6 +73,6 @@ def sites(problem, tissue, ramp, activation):
     thin = tissue["full_area"] / area - 1
     matrix = share * (1 + 0.5 * (thin + np.sqrt(thin**2 + 0.01)))
     strand = (1 - share) * tissue["tendon_area"] / area
-    fibre = share * tissue["pcsa"] / (area * stretch)
+    fibre = ramp * share * tissue["pcsa"] / (area * stretch)
     rows = np.stack([stretch, matrix, fibre, 1 - share, strand, np.full_like(area, activation)])
     return np.concatenate([np.moveaxis(problem["fibre"], 2, 0), rows])

@@ -47,6 +47,12 @@ class TimedTangent(Tangent):
         super().__init__(matrix, free)
         SECONDS["linear"] += now() - started
 
+    def refactor(self) -> None:
+        """Factor the matrix as it is now."""
+        started = now()
+        super().refactor()
+        SECONDS["linear"] += now() - started
+
     def solve(self, right: np.ndarray) -> np.ndarray:
         """Solution on the free unknowns."""
         started = now()
@@ -132,7 +138,7 @@ def walk(name: str, preset: str, native: bool) -> tuple[dict, dict]:
         result = newton(problem, vector, problem.boundary_values(load.flexion) - held)
         if result.failure:
             raise NotConvergedError(f"{name} at {load}: {result.failure}", residuals=result.residuals)
-        vector, steps = result.vector, steps + len(result.residuals)
+        vector, steps = result.vector, steps + result.tangents
     walked = now() - prepared
     seconds = {"setup": prepared - started, "walk": walked, **SECONDS, "rest": walked - sum(SECONDS.values())}
     answer = {"positions": problem.positions(vector), "moment": problem.moment(vector, TURN)}

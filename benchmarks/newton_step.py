@@ -14,7 +14,7 @@ import numpy as np
 from myograph.anatomy.load import built_in_arm
 from myograph.mechanics.continuation import Controls, at_rest, set_controls
 from myograph.mechanics.newton import newton
-from myograph.mechanics.problem import MuscleProblem, Tangent
+from myograph.mechanics.problem import MuscleProblem
 from myograph.mesh.presets import RESOLUTIONS, muscle_mesh
 
 
@@ -31,18 +31,19 @@ def main() -> None:
     mesh = muscle_mesh(arm, options.muscle, RESOLUTIONS[options.preset])
     problem = MuscleProblem(arm, options.muscle, mesh, native=options.preset == "thesis")
     rest = at_rest(problem)
+    tangent = problem.tangent(rest.vector)
     times: dict[str, list[float]] = {"assembly": [], "factorisation": [], "step": []}
     for round_ in range(options.steps):
         started = time.perf_counter()
         problem._energy.AssembleLinearization(problem._load(rest.vector))
         assembled = time.perf_counter()
-        Tangent(problem._energy.mat, problem.unknowns.FreeDofs())
+        tangent.refactor()
         times["assembly"].append(assembled - started)
         times["factorisation"].append(time.perf_counter() - assembled)
         set_controls(problem, Controls(1.0, 0.05 * (1 + round_ % 2), 0.0))
         started = time.perf_counter()
-        result = newton(problem, rest.vector, np.zeros(problem.vector_size))
-        times["step"].append((time.perf_counter() - started) / len(result.residuals))
+        result = newton(problem, rest.vector, np.zeros(problem.vector_size), contraction=0)
+        times["step"].append((time.perf_counter() - started) / result.tangents)
     medians = {name: statistics.median(values) for name, values in times.items()}
     ratio = medians["step"] / (medians["assembly"] + medians["factorisation"])
     print(json.dumps({"preset": options.preset, "unknowns": problem.vector_size, **medians, "ratio": ratio}))

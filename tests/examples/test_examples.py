@@ -28,5 +28,12 @@ def test_specimen():
     assert _load("specimen").stresses(1.0)[3] == pytest.approx(0.3372, rel=5e-3)
 
 
+def test_sparse_grid():
+    evaluations, modes, error, error_slope = _load("sparse_grid").errors()
+    assert (evaluations, modes) == (49, 4)
+    assert error == pytest.approx(2.1e-3, rel=0.05)
+    assert error_slope == pytest.approx(0.051, rel=0.05)
+
+
 def test_every_example_has_a_test():
-    assert {path.stem for path in EXAMPLES.glob("*.py")} == {"moment_over_angle", "specimen"}
+    assert {path.stem for path in EXAMPLES.glob("*.py")} == {"moment_over_angle", "sparse_grid", "specimen"}

@@ -45,7 +45,7 @@ def test_an_active_block_rests_where_fibre_and_matrix_balance(area):
     belly = MUSCLE.belly.model_copy(update=fibre | {"bulk": 1e6, "c1": 0.02, "c2": 0.005})
     tissue = MUSCLE.tissue.model_copy(update={"prestretch": 1.0, "pcsa": 1000.0, "full_area": 1e-3})
     muscle = MUSCLE.model_copy(update={"belly": belly, "tissue": tissue})
-    law = _RampedLaw(muscle, ngs.Parameter(0.0), ngs.CoefficientFunction(0.0))
+    law = _RampedLaw(muscle, ngs.Parameter(0.0), ngs.CoefficientFunction(1.0))
     one = ngs.CoefficientFunction(1.0)
     site = Site(ngs.CoefficientFunction((1.0, 0.0, 0.0)), one, area * one)
     stretches, shear = _solve_block(law, site)

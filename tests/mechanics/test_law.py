@@ -62,6 +62,15 @@ def test_cauchy_stress_is_symmetric():
     assert sigma == pytest.approx(sigma.T, abs=1e-12)
 
 
+def test_at_the_start_of_the_ramp_no_fibre_pulls():
+    muscle = MUSCLE.model_copy(
+        update={"belly": MUSCLE.belly.model_copy(update={"peak_stress": 9.0, "passive_stress": 9.0})}
+    )
+    F = _generic_deformation()
+    assert _energy(F, ramp=0.0, muscle=muscle)[1] == pytest.approx(_energy(F, ramp=0.0)[1], abs=1e-15)
+    assert np.abs(_energy(F, muscle=muscle)[1] - _energy(F)[1]).max() > 1e-3
+
+
 def test_the_sign_of_the_fibre_has_no_meaning():
     law = MuscleLaw(MUSCLE, _number(1.0), _number(1.0))
     F = ngs.CoefficientFunction(tuple(_generic_deformation().ravel()), dims=(3, 3))

@@ -6,11 +6,18 @@ from jaxtyping import Bool, Float
 
 
 class Tangent:
-    """A factored tangent: LDLᵀ without pivoting, sound because the matrix is quasi-definite."""
+    """A factored tangent: LDLᵀ without pivoting, sound because the matrix is quasi-definite.
+
+    One object serves all tangents of a form: the order of elimination is found once, the factors are made anew.
+    """
 
     def __init__(self, matrix: ngs.BaseMatrix, free: ngs.BitArray) -> None:
         self._matrix = matrix
         self._inverse = matrix.Inverse(free, "sparsecholesky")
+
+    def refactor(self) -> None:
+        """Factor the matrix as it is now."""
+        self._inverse.Update()
 
     def solve(self, right: Float[np.ndarray, " unknowns"]) -> Float[np.ndarray, " unknowns"]:
         """Solution on the free unknowns, zero on the fixed ones."""

@@ -4,7 +4,7 @@ r"""What keeps a muscle out of the bones and on the arm: energies on its skin.
 
 with g the gap to a rigid obstacle: a pulley (cylinder about the hinge's axis), a bone (capsule), or an elastic band,
 which holds a piece of the muscle near a bone and lets it slide along. The bones of the forearm turn with it: their
-gaps are taken at the place where a point was before the forearm turned. Bands grow with the ramp of the pre-stretch.
+gaps are taken at the place where a point was before the forearm turned.
 
 Traps: s is smooth, else Newton chatters, and vanishes exponentially: an algebraic tail pushes from afar as hard as a
 slack muscle pulls. A bone does not push where the muscle grows out of it, the first and the last tenth. Obstacles are
@@ -59,7 +59,7 @@ def fixed_energy(arm: Arm, contact: Contact, skin: Skin) -> Field | None:
     return _sum(energies)
 
 
-def turning_energy(arm: Arm, contact: Contact, skin: Skin, turn: Turn, ramp: Field) -> Field | None:
+def turning_energy(arm: Arm, contact: Contact, skin: Skin, turn: Turn) -> Field | None:
     """Energy per skin area [N/mm] of all that depends on the elbow's angle, and of the bands; None without them."""
     before = _unturned(arm.hinge.frame(), skin.place, turn)
     turning = [arm.bones[name] for name in contact.bones if arm.bones[name].moves_with == "forearm"]
@@ -68,7 +68,7 @@ def turning_energy(arm: Arm, contact: Contact, skin: Skin, turn: Turn, ramp: Fie
         bone = arm.bones[band.bone]
         window = ngs.exp(-(((skin.along - band.place) / band.width) ** 2))
         distance = _capsule_distance(bone, before if bone.moves_with == "forearm" else skin.place)
-        energies.append(ramp * band.stiffness * window * _penalty(band.reach - distance, band.softness))
+        energies.append(band.stiffness * window * _penalty(band.reach - distance, band.softness))
     return _sum(energies)
 
 

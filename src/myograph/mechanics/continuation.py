@@ -68,7 +68,7 @@ def unloaded(problem: MuscleProblem) -> Solved:
 
 def at_rest(problem: MuscleProblem) -> Solved:
     """The muscle in the reference pose with its full pre-stretch, not activated."""
-    return reach(problem, unloaded(problem), Controls(1.0, 0.0, 0.0), first_share=1 / 16)
+    return reach(problem, unloaded(problem), Controls(1.0, 0.0, 0.0), first_share=1 / 8)
 
 
 def reach(problem: MuscleProblem, start: Solved, target: Controls, first_share: float = 1.0) -> Solved:
@@ -89,13 +89,13 @@ def reach(problem: MuscleProblem, start: Solved, target: Controls, first_share: 
             set_controls(problem, here.controls)
             rate, steps = flexion_rate(problem, here.vector, here.controls.flexion), steps + 1
         result = _step(problem, here, controls, rate)
-        steps += len(result.residuals)
+        steps += result.tangents
         if not result.failure:
             turned = controls.flexion - here.controls.flexion
             memory = (rate, turned) if rate is not None else (here.rate, here.turn)
             here, rate = Solved(controls, result.vector, steps, *memory), None
             done = 1.0 if done + share > 1 - 1e-9 else done + share
-            share *= 3.0 if len(result.residuals) <= _QUICK else 1.5
+            share *= 3.0 if result.tangents <= _QUICK else 1.5
         elif share / 2 < SMALLEST_SHARE:
             raise _failure(problem, controls, result.failure, result.residuals)
         else:

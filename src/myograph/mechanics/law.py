@@ -5,7 +5,8 @@ r"""Energy per reference volume of a muscle, composed of two laws: that of its b
       + p θ(J) - p² / (2 K)                                                     volume, θ and K of the belly's law
 
 with γ the smooth fraction of belly, a the activation, and G0 = l0^(-1/2) 1 + (l0 - l0^(-1/2)) a0 ⊗ a0, which stretches
-the belly as it is pre-stretched in the reference body: l0 = 1 + ramp γ (prestretch - 1).
+the belly as it is pre-stretched in the reference body: l0 = 1 + ramp γ (prestretch - 1). The ramp, 0 to 1 on the way to
+the muscle at rest, also multiplies the belly's fibres: at 0 nothing pulls.
 
 Bundles: fibres carry the same force everywhere along the muscle, so that tapered ends carry what the belly carries.
 With A the area of the reference section s_b = pcsa / (A l0), s_t = tendon_area / A: the first Piola–Kirchhoff stress
@@ -64,7 +65,7 @@ class MuscleLaw:
         tissue, law = self.muscle.tissue, self.muscle.belly
         elastic = at.prestretched(prestretch)
         matrix = law.matrix(elastic if tissue.prestretch_matrix else at, NGSOLVE)
-        fibre = law.passive_fibre(elastic, NGSOLVE) + self.activation * law.active(elastic, NGSOLVE)
+        fibre = self.ramp * (law.passive_fibre(elastic, NGSOLVE) + self.activation * law.active(elastic, NGSOLVE))
         if not tissue.bundles:
             return matrix + fibre
         slim = 1 + positive(tissue.full_area / site.area - 1, _SLIM_SOFTNESS)

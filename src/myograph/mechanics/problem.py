@@ -55,6 +55,7 @@ class MuscleProblem:
         self.unknowns = _unknown_space(self.space)
         self._scratch = ngs.GridFunction(self.unknowns)
         self.free = as_array(self.unknowns.FreeDofs())
+        self._factored: Tangent | None = None
         self.law = MuscleLaw(self.muscle, self.controls.activation, self.controls.ramp)
         self.site = self._material_site()
         self._build_forms(native)
@@ -83,15 +84,16 @@ class MuscleProblem:
         self._energy += ngs.Variation(compiled(self.law.energy(ngs.Id(3) + ngs.Grad(u), p, site), native) * volume)
         place = ngs.CoefficientFunction((ngs.x, ngs.y, ngs.z)) + u
         points = Skin(place, self.space.field(self.mesh.along), self.site.area)
-        fixed = fixed_energy(self.arm, self.muscle.contact, points)
+        ramp, fixed = self.controls.ramp, fixed_energy(self.arm, self.muscle.contact, points)
         if fixed is not None:
-            self._energy += ngs.Variation(fixed.Compile() * skin)
-        turning = turning_energy(self.arm, self.muscle.contact, points, self.controls.turn, self.controls.ramp)
+            self._energy += ngs.Variation((ramp * fixed).Compile() * skin)
+        turning = turning_energy(self.arm, self.muscle.contact, points, self.controls.turn)
         self._turning: ngs.BilinearForm | None = None
         if turning is not None:
-            self._energy += ngs.Variation(turning.Compile() * skin)
+            turning = (ramp * turning).Compile()
+            self._energy += ngs.Variation(turning * skin)
             self._turning = ngs.BilinearForm(self.unknowns)
-            self._turning += ngs.Variation(turning.Compile() * skin)
+            self._turning += ngs.Variation(turning * skin)
 
     def energy(self, vector: Float[np.ndarray, " unknowns"]) -> float:
         """Total energy [N mm]."""
@@ -102,9 +104,13 @@ class MuscleProblem:
         return derivative(self._energy, self._load(vector))
 
     def tangent(self, vector: Float[np.ndarray, " unknowns"]) -> Tangent:
-        """Second derivative of the energy, factored."""
+        """Second derivative of the energy, factored; good until the next one is asked for."""
         self._energy.AssembleLinearization(self._load(vector))
-        return Tangent(self._energy.mat, self.unknowns.FreeDofs())
+        if self._factored is None:
+            self._factored = Tangent(self._energy.mat, self.unknowns.FreeDofs())
+        else:
+            self._factored.refactor()
+        return self._factored
 
     def boundary_values(self, flexion: float) -> Float[np.ndarray, " unknowns"]:
         """Unknowns of the prescribed displacement at a flexion [rad] from the reference pose; zero elsewhere."""
