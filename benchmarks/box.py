@@ -2,25 +2,25 @@
 
     python benchmarks/box.py [--preset tiny quick thesis] [--muscle NAME ...] [--out DIR] [--json]
 
-Tables are kept in DIR and used again; their seconds are those of the run that made them.
+States are kept in DIR and used again; their minutes of processor time are those of the run that solved them.
 """
 
 import argparse
 import json
-import time
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 
+import numpy as np
 from rich.console import Console
 from rich.table import Table
 
 from myograph.anatomy.load import built_in_arm
 from myograph.case import MUSCLES
-from myograph.errors import InputError
-from myograph.limb.table import MuscleTable, load_table, regular_grid, save_table, table_key
-from myograph.limb.tabulate import tabulate_muscle
+from myograph.limb.tables.solve import FiniteElementStates
+from myograph.limb.tables.spec import box
+from myograph.limb.tables.state import State
 
 COLUMNS = (
     "preset",
@@ -37,7 +37,7 @@ COLUMNS = (
 
 
 def main() -> None:
-    """Tabulate, print."""
+    """Solve, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--preset", nargs="+", default=["tiny", "quick", "thesis"])
     parser.add_argument("--muscle", nargs="+", default=list(reversed(MUSCLES)))
@@ -64,30 +64,25 @@ def main() -> None:
 def _row(out: Path, size: tuple[int, int], job: tuple[str, str]) -> dict:
     preset, name = job
     arm = built_in_arm()
-    grid = regular_grid(arm, *size)
-    path, key = out / preset / f"{name}.npz", table_key(arm, name, preset, grid)
-    seconds = path.with_suffix(".seconds")
-    try:
-        table = load_table(path, key)
-    except InputError:
-        started = time.perf_counter()
-        table = tabulate_muscle(arm, name, preset, grid, lambda _: None)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        seconds.write_text(str(time.perf_counter() - started))
-        save_table(table, path)
-    return {"preset": preset, "muscle": name, **_summary(table), "minutes": round(float(seconds.read_text()) / 60, 2)}
+    domain = box(arm)
+    axes = [np.linspace(low, high, number) for low, high, number in zip(domain.lower, domain.upper, size, strict=True)]
+    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+    states = FiniteElementStates(arm, name, preset, lambda _: None, out / preset)(points)
+    return {"preset": preset, "muscle": name, **_summary(states)}
 
 
-def _summary(table: MuscleTable) -> dict:
-    record, solved = table.record, table.record.failures == ""
+def _summary(states: list[State]) -> dict:
+    solved = [state for state in states if not state.failure]
+    steps = [state.newton_steps for state in solved]
     return {
-        "solved": int(solved.sum()),
-        "states": table.grid.size,
-        "newton_mean": round(float(record.newton_steps[solved].mean()), 2),
-        "newton_most": int(record.newton_steps[solved].max()),
-        "volume": f"{abs(record.volume_change[solved]).max():.1e}",
-        "smallest_J": round(float(record.smallest_jacobian[solved].min()), 2),
-        "depth_mm": round(float(record.penetration[solved].max()), 2),
+        "solved": len(solved),
+        "states": len(states),
+        "newton_mean": round(float(np.mean(steps)), 2),
+        "newton_most": max(steps),
+        "volume": f"{max(abs(state.volume_change) for state in solved):.1e}",
+        "smallest_J": round(min(state.smallest_jacobian for state in solved), 2),
+        "depth_mm": round(max(state.penetration for state in solved), 2),
+        "minutes": round(sum(state.seconds for state in states) / 60, 2),
     }
 
 

@@ -26,10 +26,11 @@ from scipy.optimize import least_squares
 from myograph.anatomy.body import line_of_action
 from myograph.anatomy.load import built_in_arm, load_arm
 from myograph.anatomy.model import Arm
-from myograph.errors import InputError, MyographError
+from myograph.errors import InputError, MyographError, NotConvergedError
 from myograph.files import write_whole
-from myograph.limb.table import Grid, MuscleTable
-from myograph.limb.tabulate import tabulate_muscle
+from myograph.limb.tables.solve import FiniteElementStates
+from myograph.limb.tables.spec import TableSpec
+from myograph.limb.tables.tabulate import tabulate_muscle
 from one_dimension import fit_line
 from parameters import values_of, with_values, write_values
 
@@ -52,8 +53,8 @@ FITTED = {
         "belly.width_ascending",
     ),
 }
-ANGLES = tuple(np.radians([10.0, 25, 45, 62, 80, 98, 115, 132, 150]).tolist())
-ACTIVATIONS = (0.0, 0.5, 1.0)
+SHOWN = TableSpec(most_states=49, held_out=0)
+"""Of the table whose curves the figure shows."""
 RANGE = 0.4
 """Largest change of a parameter's logarithm in the fit by finite elements."""
 STEP = 0.01
@@ -109,36 +110,37 @@ def read_samples(path: Path) -> np.ndarray:
     return samples[np.lexsort((samples[:, 1], samples[:, 0]))]
 
 
-def forces(arm: Arm, name: str, samples: np.ndarray, table: MuscleTable) -> np.ndarray:
-    """Forces [N] at the samples: moment over the moment arm of the line of action."""
+def forces(arm: Arm, name: str, samples: np.ndarray, preset: str) -> np.ndarray:
+    """Forces [N] at the samples, each solved: moment over the moment arm of the line of action.
+
+    Raises NotConvergedError for a state that fails.
+    """
     line = line_of_action(arm.muscles[name], arm.hinge.frame())
     angles = np.radians(samples[:, 0])
-    moments = np.array([table.moment(angles[[k]], samples[k, 1])[0] for k in range(len(samples))])
+    states = FiniteElementStates(arm, name, preset, lambda _: None)(np.column_stack([angles, samples[:, 1]]))
+    for state in states:
+        if state.failure:
+            raise NotConvergedError(state.failure)
+    moments = np.array([state.moment for state in states])
     return moments / np.array([line.moment_arm(angle - arm.reference_angle) for angle in angles])
-
-
-def solve_table(arm: Arm, name: str, preset: str) -> MuscleTable:
-    """The muscle over the whole box."""
-    return tabulate_muscle(arm, name, preset, Grid(ANGLES, ACTIVATIONS), lambda _: None)
 
 
 def _fit_muscle(arm: Arm, samples: np.ndarray, options: argparse.Namespace, name: str):
     keys, published = FITTED[name], np.abs(samples[:, COLUMNS[name]])
     seen = np.arange(len(samples)) % 2 == 0
-    cache: dict[tuple, MuscleTable] = {}
+    cache: dict[tuple, np.ndarray] = {}
 
     def arm_at(x: np.ndarray) -> Arm:
         return with_values(arm, name, dict(zip(keys, np.exp(x), strict=True)))
 
-    def table_at(x: np.ndarray, preset: str) -> MuscleTable:
+    def fitted(x: np.ndarray, preset: str) -> np.ndarray:
         key = (preset, *x.tolist())
         if key not in cache:
-            cache[key] = solve_table(arm_at(x), name, preset)
+            cache[key] = forces(arm_at(x), name, samples[seen], preset)
         return cache[key]
 
     def residual(x: np.ndarray, preset: str = options.preset) -> np.ndarray:
-        difference = (forces(arm_at(x), name, samples, table_at(x, preset)) - published)[seen]
-        error = difference / np.linalg.norm(published[seen])
+        error = (fitted(x, preset) - published[seen]) / np.linalg.norm(published[seen])
         Console(stderr=True).print(f"{name} {preset}: {np.exp(x).round(4)} relative L2 {np.linalg.norm(error):.4f}")
         return error
 
@@ -152,11 +154,11 @@ def _fit_muscle(arm: Arm, samples: np.ndarray, options: argparse.Namespace, name
     if options.steps:
         low = np.where(np.array(keys) == "belly.passive_exponent", 0.0, start - RANGE)
         found = least_squares(residual, start, jac=jacobian, max_nfev=options.steps, bounds=(low, start + RANGE)).x
-    table = table_at(found, options.preset)
-    ours = forces(arm_at(found), name, samples, table)
+    ours = forces(arm_at(found), name, samples, options.preset)
     errors = [
         float(np.linalg.norm((ours - published)[part]) / np.linalg.norm(published[part])) for part in (seen, ~seen)
     ]
+    table = tabulate_muscle(arm_at(found), name, options.preset, SHOWN, lambda _: None) if options.figure else None
     return dict(zip(keys, np.exp(found).round(5).tolist(), strict=True)), table, errors
 
 

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 
 from myograph.anatomy.body import line_of_action
 from myograph.anatomy.model import Arm
-from myograph.limb.table import MuscleTable
+from myograph.limb.tables.table import MuscleTable
 
 SHOWN = (0.146447, 0.5, 0.853553)
 COLOURS = ("#3b6ea5", "#7a5195", "#c0392b")

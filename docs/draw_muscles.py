@@ -16,6 +16,7 @@ from myograph.case import MUSCLES
 from myograph.cli.arm import bone_surfaces
 from myograph.files import write_whole
 from myograph.mechanics.muscle import FiniteElementMuscle, MuscleState
+from myograph.mechanics.walk import Walk
 from myograph.mesh.tissue import tendon_share
 from myograph.view import Surface
 from myograph.view.arm import painted
@@ -46,10 +47,11 @@ def solve(preset: str, name: str) -> list[tuple[float, float, Surface]]:
     muscle = FiniteElementMuscle(arm, name, preset)
     share = tendon_share(arm, name, muscle.mesh)
     poses = []
-    for angle, activation, state in muscle.walk([float(np.radians(angle)) for angle in ANGLES], ACTIVATIONS):
+    places = [(angle, activation) for angle in ANGLES for activation in ACTIVATIONS]
+    for number, state in Walk(muscle).states(np.array([(np.radians(angle), a) for angle, a in places])):
         assert isinstance(state, MuscleState), state.reason
         skin = Surface(state.fields["position"], muscle.mesh.skin, name, MUSCLE_COLOURS[name], share)
-        poses.append((ANGLES[angle], ACTIVATIONS[activation], skin))
+        poses.append((*places[number], skin))
     return poses
 
 

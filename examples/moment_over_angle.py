@@ -1,7 +1,10 @@
 """The biceps by finite elements: its moment about the elbow over the angle, relaxed and half active."""
 
+import numpy as np
+
 from myograph.anatomy.load import built_in_arm
 from myograph.mechanics.muscle import FiniteElementMuscle
+from myograph.mechanics.walk import Walk
 from myograph.units import degrees, newton_metres, radians
 
 ANGLES_DEG = (40, 60, 80)
@@ -9,9 +12,9 @@ ANGLES_DEG = (40, 60, 80)
 
 def moments() -> dict[tuple[float, float], float]:
     """Moment [N·m] by (angle in degrees, activation)."""
-    biceps = FiniteElementMuscle(built_in_arm(), "biceps", preset="tiny")
-    states = biceps.walk([radians(angle) for angle in ANGLES_DEG], [0.0, 0.5])
-    return {(float(round(degrees(s.angle))), s.activation): newton_metres(s.moment) for _, _, s in states}
+    walk = Walk(FiniteElementMuscle(built_in_arm(), "biceps", preset="tiny"))
+    points = np.array([(radians(angle), activation) for angle in ANGLES_DEG for activation in (0.0, 0.5)])
+    return {(float(round(degrees(s.angle))), s.activation): newton_metres(s.moment) for _, s in walk.states(points)}
 
 
 if __name__ == "__main__":

@@ -18,7 +18,8 @@ def test_the_json_is_the_checks_and_nothing_else():
     done = _verify("--json", "--only", "febio", "--only", "patch.hexahedra")
     assert done.returncode == 0, done.stderr
     result = json.loads(done.stdout)
-    assert list(result) == ["checks"]
+    assert list(result) == ["checks", "skipped"]
+    assert result["skipped"] == []
     names = [check["name"] for check in result["checks"]]
     assert names == ["febio.ma20", "febio.ma24", "febio.ma25", "febio.mu03", "febio.mu03_stress", "patch.hexahedra"]
     for check in result["checks"]:

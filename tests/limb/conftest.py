@@ -5,34 +5,65 @@ import pytest
 
 from myograph.anatomy.load import built_in_arm
 from myograph.case import MUSCLES
-from myograph.limb.table import MuscleTable, Record, regular_grid, table_key
 from myograph.limb.table_arm import TableArm
+from myograph.limb.tables.adaptive import built
+from myograph.limb.tables.spec import TableSpec
+from myograph.limb.tables.state import State
 
 STRENGTH = {"brachioradialis": 5e3, "brachialis": 8e3, "biceps": 2e4, "anconeus": -1e3, "triceps": -2e4}
+NODES = 12
+
+
+def smooth(name):
+    """Moment = strength (0.2 + activation) (2 - angle); positions shrink with activation."""
+
+    def formula(reference, angle, activation):
+        shrink = 1 - 0.1 * activation * angle
+        fields = {
+            "position": reference * shrink,
+            "cauchy_stress": np.tile(activation * np.arange(1.0, 7), (NODES, 1)),
+            "fibre_stretch": np.full(NODES, shrink),
+            "pressure": np.zeros(NODES),
+        }
+        return STRENGTH[name] * (0.2 + activation) * (2 - angle if STRENGTH[name] > 0 else 1), fields
+
+    return formula
+
+
+class FormulaStates:
+    """States of a muscle of twelve nodes from a formula; knows where it was asked, fails where it is told to."""
+
+    def __init__(self, arm, name, formula=None, fails=lambda angle, activation: False):
+        self.arm, self.name, self.preset = arm, name, "tiny"
+        self.reference = np.random.default_rng(1).normal(size=(NODES, 3)) * 50
+        self.skin = np.array([[0, 1, 2, 3]])
+        self.formula, self.fails = formula or smooth(name), fails
+        self.asked = []
+
+    def __call__(self, points):
+        self.asked += points.tolist()
+        return [self.state(angle, activation) for angle, activation in points.tolist()]
+
+    def state(self, angle, activation):
+        if self.fails(angle, activation):
+            return State(angle, activation, "an element turned inside out", seconds=1.0)
+        moment, fields = self.formula(self.reference, angle, activation)
+        sound = {"volume_change": 1e-4, "smallest_jacobian": 0.9, "penetration": -0.1}
+        return State(angle, activation, "", moment, 3, seconds=1.0, fields=fields, vector=np.zeros(5), **sound)
 
 
 def formula_table(arm, name):
-    """Moment = strength (0.2 + activation) (2 - angle); positions shrink with activation."""
-    grid = regular_grid(arm, 6, 4)
-    angle, activation = np.meshgrid(grid.angles, grid.activations, indexing="ij")
-    reference = np.random.default_rng(1).normal(size=(12, 3)) * 50
-    shrink = (1 - 0.1 * activation * angle)[..., None, None]
-    stress = np.broadcast_to(activation[..., None, None] * np.arange(1.0, 7), (*angle.shape, 12, 6))
-    fields = {
-        "position": reference * shrink,
-        "cauchy_stress": stress.copy(),
-        "fibre_stretch": np.broadcast_to(shrink[..., 0], (*angle.shape, 12)).copy(),
-        "pressure": np.zeros((*angle.shape, 12)),
-    }
-    moments = STRENGTH[name] * (0.2 + activation) * (2 - angle if STRENGTH[name] > 0 else 1)
-    key = table_key(arm, name, "tiny", grid)
-    quads = np.array([[0, 1, 2, 3]])
-    none = np.zeros(angle.shape)
-    record = Record(np.ones(angle.shape, dtype=np.int64), none, none + 1, none, np.full(angle.shape, ""))
-    return MuscleTable(name, key, grid, moments, fields, reference, quads, record)
+    return built(FormulaStates(arm, name), TableSpec.regular(2))
 
 
 @pytest.fixture
 def formula_arm():
     arm = built_in_arm()
     return TableArm(arm, {name: formula_table(arm, name) for name in MUSCLES})
+
+
+def with_tendon_area(arm, name, area):
+    """The arm with another muscle."""
+    tissue = arm.muscles[name].tissue.model_copy(update={"tendon_area": area})
+    muscle = arm.muscles[name].model_copy(update={"tissue": tissue})
+    return arm.model_copy(update={"muscles": {**arm.muscles, name: muscle}})

@@ -8,8 +8,7 @@ import pytest
 
 from myograph.anatomy.body import line_of_action
 from myograph.anatomy.load import built_in_arm
-from myograph.limb.table import regular_grid
-from myograph.limb.tabulate import tabulate_muscle
+from myograph.limb.tables.solve import FiniteElementStates
 
 ROOT = Path(os.environ.get("MYOGRAPH_REFERENCE_DATA", Path(__file__).parents[3] / "shared" / "data"))
 SAMPLES = ROOT / "stuttgart" / "sparse_grid_clenshaw_curtis.csv"
@@ -24,10 +23,10 @@ def test_forces_on_samples_that_the_fit_did_not_see_are_within_five_per_cent(nam
     arm = built_in_arm()
     samples = np.loadtxt(SAMPLES)
     samples = samples[np.lexsort((samples[:, 1], samples[:, 0]))][1::2]
-    table = tabulate_muscle(arm, name, "tiny", regular_grid(arm, 9, 3), lambda _: None)
     line = line_of_action(arm.muscles[name], arm.hinge.frame())
     angles = np.radians(samples[:, 0])
-    moments = np.array([table.moment(angles[[k]], samples[k, 1])[0] for k in range(len(samples))])
+    points = np.column_stack([angles, samples[:, 1]])
+    moments = np.array([state.moment for state in FiniteElementStates(arm, name, "tiny", lambda _: None)(points)])
     forces = moments / [line.moment_arm(angle - arm.reference_angle) for angle in angles]
     published = np.abs(samples[:, column])
     error = np.linalg.norm(forces - published) / np.linalg.norm(published)

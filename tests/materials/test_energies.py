@@ -45,7 +45,7 @@ def test_cauchy_stress_is_symmetric(law):
     assert tau == pytest.approx(tau.T, abs=1e-7 * np.abs(tau).max())
 
 
-@pytest.mark.parametrize("name", EXAMPLES.keys() - {"gauss"})
+@pytest.mark.parametrize("name", sorted(EXAMPLES.keys() - {"gauss"}))
 def test_the_reference_is_free_of_stress_without_activation(name):
     """At p = 0; one-sided differences of laws whose fibre sets in at l = 1 vanish with the step."""
     law, step = EXAMPLES[name], 1e-7

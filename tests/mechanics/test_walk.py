@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from myograph.anatomy.load import built_in_arm
-from myograph.errors import NotConvergedError
+from myograph.errors import InputError, NotConvergedError
 from myograph.mechanics import muscle as muscle_module
 from myograph.mechanics.continuation import Controls, at_rest, reach, set_controls
 from myograph.mechanics.muscle import FailedState, FiniteElementMuscle, MuscleState
 from myograph.mechanics.predictor import extrapolated, flexion_rate
+from myograph.mechanics.walk import Walk
 from tests.mechanics.conftest import problem_of
 
 
@@ -39,12 +40,74 @@ def anconeus():
     return FiniteElementMuscle(built_in_arm(), "anconeus", "tiny")
 
 
-def test_a_walk_yields_every_state_of_the_grid_once(anconeus):
-    angles, activations = np.radians([45.0, 75.0]), (0.0, 1.0)
-    states = list(anconeus.walk(angles.tolist(), activations))
-    assert sorted((k, j) for k, j, _ in states) == [(0, 0), (0, 1), (1, 0), (1, 1)]
-    assert all(isinstance(state, MuscleState) for _, _, state in states)
-    assert all(abs(state.soundness.volume_change) < 1e-3 for _, _, state in states)
+def points_of(angles_deg, activations):
+    return np.array([(angle, a) for angle in np.radians(angles_deg) for a in activations])
+
+
+def test_a_walk_yields_every_point_once_with_its_number(anconeus):
+    points = points_of([75.0, 45.0], (1.0, 0.0))
+    states = dict(Walk(anconeus).states(points))
+    assert sorted(states) == [0, 1, 2, 3]
+    for number, state in states.items():
+        assert isinstance(state, MuscleState)
+        assert (state.angle, state.activation) == pytest.approx(tuple(points[number]))
+        assert abs(state.soundness.volume_change) < 1e-3
+
+
+def test_the_angle_goes_outwards_from_the_reference_pose_and_the_activation_rises(anconeus):
+    points = points_of([30.0, 45.0, 75.0, 90.0], (0.5, 0.2))
+    order = [tuple(points[number].round(6)) for number, _ in Walk(anconeus).states(points)]
+    expected = points_of([75.0, 90.0, 45.0, 30.0], (0.2, 0.5))
+    assert order == [tuple(point) for point in expected.round(6)]
+
+
+def test_further_points_start_from_what_is_solved(anconeus, monkeypatch):
+    original, starts = muscle_module.reach, []
+
+    def spy(problem, start, target):
+        starts.append((start.controls.activation, start.controls.flexion, target.activation))
+        return original(problem, start, target)
+
+    monkeypatch.setattr(muscle_module, "reach", spy)
+    walk = Walk(anconeus)
+    first = dict(walk.states(points_of([75.0], (0.0, 0.5, 1.0))))
+    starts.clear()
+    again = dict(walk.states(points_of([75.0], (0.5,))))
+    assert starts == []
+    assert again[0].moment == first[1].moment
+    between = next(walk.states(points_of([75.0], (0.75,))))[1]
+    assert [(start, target) for start, _, target in starts] == [(0.5, 0.75)]
+    fresh = anconeus.solve(0.75, np.radians(75.0))
+    assert between.moment == pytest.approx(fresh.moment, rel=1e-5)
+    starts.clear()
+    dict(walk.states(points_of([80.0], (0.5,))))
+    flexion = np.radians(75.0) - anconeus.arm.reference_angle
+    assert starts[0] == (0.0, pytest.approx(flexion), 0.0)
+    assert len(starts) == 2
+
+
+def test_a_walk_goes_on_from_unknowns_of_an_earlier_one(anconeus, monkeypatch):
+    walk = Walk(anconeus)
+    points = points_of([75.0], (0.0, 0.5))
+    solved = dict(walk.states(points))
+    other = Walk(anconeus)
+    for angle, activation in points.tolist():
+        other.remember(angle, activation, walk.vector(angle, activation))
+    monkeypatch.setattr(muscle_module, "reach", None)
+    assert dict(other.states(points))[1].moment == pytest.approx(solved[1].moment, rel=1e-12)
+
+
+def test_unknowns_are_those_of_solved_points_and_of_this_mesh(anconeus):
+    walk = Walk(anconeus)
+    with pytest.raises(InputError, match="expected a point that is solved, got angle 1 rad"):
+        walk.vector(1.0, 0.5)
+    with pytest.raises(InputError, match=r"anconeus: expected .* unknowns, got 7"):
+        walk.remember(1.0, 0.5, np.zeros(7))
+
+
+def test_a_point_outside_the_box_is_refused(anconeus):
+    with pytest.raises(InputError, match="elbow angle: expected 10 to 150 degrees, got 170"):
+        list(Walk(anconeus).states(points_of([170.0], (0.0,))))
 
 
 def test_a_state_that_fails_is_yielded_with_its_reason_and_the_others_are_solved(anconeus, monkeypatch):
@@ -56,10 +119,10 @@ def test_a_state_that_fails_is_yielded_with_its_reason_and_the_others_are_solved
         return original(problem, start, target)
 
     monkeypatch.setattr(muscle_module, "reach", stubborn)
-    states = {(k, j): state for k, j, state in anconeus.walk(np.radians([55.0, 65.0]).tolist(), (0.0, 0.5, 1.0))}
-    failed = [key for key, state in states.items() if isinstance(state, FailedState)]
-    assert failed == [(1, 2)]
-    assert states[1, 2].reason == "no way there"
+    states = dict(Walk(anconeus).states(points_of([55.0, 65.0], (0.0, 0.5, 1.0))))
+    failed = [number for number, state in states.items() if isinstance(state, FailedState)]
+    assert failed == [5]
+    assert states[5].reason == "no way there"
     assert len(states) == 6
 
 
@@ -72,6 +135,6 @@ def test_an_active_state_is_reached_from_the_angle_before_where_rest_fails(ancon
         return original(problem, start, target)
 
     monkeypatch.setattr(muscle_module, "reach", no_rest)
-    states = {(k, j): state for k, j, state in anconeus.walk(np.radians([65.0, 80.0]).tolist(), (0.0, 1.0))}
-    assert isinstance(states[1, 0], FailedState)
-    assert isinstance(states[1, 1], MuscleState)
+    states = dict(Walk(anconeus).states(points_of([65.0, 80.0], (0.0, 1.0))))
+    assert isinstance(states[2], FailedState)
+    assert isinstance(states[3], MuscleState)

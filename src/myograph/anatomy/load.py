@@ -20,6 +20,13 @@ def load_arm(path: Path) -> Arm:
     return read_toml(path, Arm)
 
 
+def muscle_checksum(arm: Arm, name: str) -> str:
+    """SHA-256 of all that the finite elements of one muscle see: itself, the bones, the hinge; not what it lifts."""
+    seen = arm.model_dump(mode="json", include={"hinge": True, "bones": True, "muscles": {name: True}})
+    seen["muscles"][name].pop("calibration", None)
+    return hashlib.sha256(json.dumps(seen, sort_keys=True).encode()).hexdigest()
+
+
 def arm_checksum(arm: Arm) -> str:
     """SHA-256 of everything the arm says, whatever the layout of its file."""
     text = json.dumps(arm.model_dump(mode="json"), sort_keys=True)

@@ -193,8 +193,21 @@ class Stops(Model):
     softness_deg: Positive
 
 
+class Dynamics(Model):
+    """What movement needs beyond moments: inertia, damping, and how fast activation follows excitation.
+
+    `radius_of_gyration` [mm] is that of the forearm with hand about its centre of mass, across the forearm; `damping`
+    is the joint's, in N·m·s/rad; times in s.
+    """
+
+    radius_of_gyration: Positive
+    damping_nms: Annotated[float, Field(ge=0)]
+    activation_time: Positive
+    deactivation_time: Positive
+
+
 class Arm(Model):
-    """A whole arm."""
+    """A whole arm; `dynamics` only where it is to move."""
 
     name: str
     hinge: HingeSpec
@@ -202,6 +215,7 @@ class Arm(Model):
     muscles: dict[str, Muscle]
     load: Load
     stops: Stops
+    dynamics: Dynamics | None = None
 
     @model_validator(mode="after")
     def _names_are_known(self) -> "Arm":

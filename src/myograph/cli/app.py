@@ -12,8 +12,13 @@ import typer
 
 import myograph
 from myograph.cli.arm import arm
+from myograph.cli.bench import app as bench_app
 from myograph.cli.demo import demo
+from myograph.cli.ensemble import app as ensemble_app
+from myograph.cli.move import move
+from myograph.cli.optimise import optimise
 from myograph.cli.solve import solve
+from myograph.cli.table import app as table_app
 from myograph.cli.verify import verify
 from myograph.errors import MyographError
 
@@ -30,7 +35,12 @@ app = typer.Typer(
 app.command()(demo)
 app.command()(arm)
 app.command()(solve)
+app.command()(optimise)
+app.command()(move)
 app.command()(verify)
+app.add_typer(table_app)
+app.add_typer(ensemble_app)
+app.add_typer(bench_app)
 
 
 def _show_version(wanted: bool) -> None:

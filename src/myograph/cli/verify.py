@@ -2,6 +2,7 @@
 
 import math
 import time
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -19,16 +20,22 @@ def verify(
         list[str] | None,
         typer.Option(help="Run one check (febio.ma20) or one family (febio) only; may be given several times."),
     ] = None,
+    data: Annotated[
+        Path | None,
+        typer.Option(envvar="MYOGRAPH_REFERENCE_DATA", help="Folder of reference data that myograph does not bring."),
+    ] = None,
     json: Json = False,
 ) -> None:
-    """Compute published reference values and closed forms by finite elements, and compare.
+    """Compute published reference values and closed forms, and compare.
 
     Exit code 3 where a value lies outside its tolerance.
     """
     started = time.perf_counter()
-    results = _run(only or [])
+    results, skipped = _run(only or [], data)
+    for family, reason in skipped.items():
+        typer.echo(f"myograph: skipped {family}: {reason}", err=True)
     if json:
-        print_json({"checks": [_row(result) for result in results]})
+        print_json({"checks": [_row(result) for result in results], "skipped": list(skipped)})
     else:
         _print_table(results, time.perf_counter() - started)
     failed = [result for result in results if not result.passed]
@@ -36,20 +43,20 @@ def verify(
         raise NotConvergedError("\n".join(_complaint(result) for result in failed))
 
 
-def _run(only: list[str]) -> list[Any]:
+def _run(only: list[str], data: Path | None) -> tuple[list[Any], dict[str, str]]:
     try:
         from myograph.verification import table
     except ModuleNotFoundError as missing:
         raise MissingPackageError(str(missing.name), "simulate", "verifying") from None
-    checks = table.select(only)
+    checks = table.select(only, data)
     families = dict.fromkeys(check.name.split(".")[0] for check in checks)
     totals = {family: sum(check.name.startswith(f"{family}.") for check in checks) for family in families}
     results = []
     with Steps().bars("verify", totals) as advance:
-        for result in table.verify(only):
+        for result in table.verify(only, data):
             results.append(result)
             advance(result.check.name.split(".")[0])
-    return results
+    return results, table.skipped(only, data)
 
 
 def _row(result: Any) -> dict[str, Any]:
@@ -70,7 +77,7 @@ def _number(value: float) -> float | None:
 
 def _print_table(results: list[Any], seconds: float) -> None:
     table = Table(
-        title="Finite elements beside what is known",
+        title="Ours beside what is known",
         title_justify="left",
         box=SIMPLE,
         show_edge=False,

@@ -24,12 +24,12 @@ import xarray as xr
 from jaxtyping import Float, Int
 
 from myograph.case import MUSCLES, Solution
+from myograph.ensemble.node_fields import NODE_FIELDS
 from myograph.errors import InputError
 from myograph.fields import AXES, FIELDS, VOIGT
 from myograph.files import write_whole_folder
 
 SCHEMA = 1
-NODE_FIELDS = ("position", "cauchy_stress", "von_mises", "fibre_stretch", "pressure")
 _COMPONENT_DIMENSION = {AXES: ("axes",), VOIGT: ("voigt",), (): ()}
 
 

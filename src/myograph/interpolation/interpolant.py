@@ -55,7 +55,7 @@ class Interpolant:
         """Values (*batch, *components); raises InputError outside the domain, naming the coordinate."""
         blocks = [self.functions.values(block) @ self._flat for block in self._blocks(points)]
         values = blocks[0] if len(blocks) == 1 else np.concatenate(blocks)
-        return values.reshape(*points.shape[:-1], *self.surpluses.shape[1:])
+        return values.reshape((*points.shape[:-1], *self.surpluses.shape[1:]))
 
     def gradient(self, points: Float[np.ndarray, "*batch dimension"]) -> Float[np.ndarray, "*shape"]:
         """First derivatives (*batch, *components, dimension); raises InputError outside the domain."""

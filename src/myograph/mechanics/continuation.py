@@ -2,7 +2,7 @@
 
 A path of controls leads from state to state: first the pre-stretch is ramped up in the reference pose, then the angle
 changes at rest, then the activation jumps. Every step starts from the last solved one; a turn of the elbow, from the
-parabola through the last two.
+parabola through the last two. A step that leads through a bone, where the energy has further minima, is none.
 """
 
 from dataclasses import dataclass, replace
@@ -14,10 +14,13 @@ from myograph.errors import NotConvergedError, SolvePoint
 from myograph.mechanics.newton import NewtonResult, newton
 from myograph.mechanics.predictor import extrapolated, flexion_rate
 from myograph.mechanics.problem import MuscleProblem
+from myograph.mechanics.soundness import depths_in_obstacles
 from myograph.units import degrees, radians
 
 LARGEST_TURN = radians(20.0)
 SMALLEST_SHARE = 1 / 128
+DEEPEST = 1.0
+"""Depth [mm] in a bone from which on a muscle has passed into it instead of leaning on it."""
 _QUICK = 4
 """Newton steps up to which a load step was easy and the next may be three times as long."""
 
@@ -109,7 +112,18 @@ def _step(problem: MuscleProblem, here: Solved, controls: Controls, rate: np.nda
     if rate is not None:
         guess = guess + extrapolated(rate, here.rate, controls.flexion - here.controls.flexion, here.turn)
     set_controls(problem, controls)
-    return newton(problem, guess, problem.boundary_values(controls.flexion) - np.where(problem.free, 0.0, guess))
+    held = np.where(problem.free, 0.0, guess)
+    result = newton(problem, guess, problem.boundary_values(controls.flexion) - held)
+    return replace(result, failure=result.failure or _through_a_bone(problem, result.vector, controls))
+
+
+def _through_a_bone(problem: MuscleProblem, vector: np.ndarray, controls: Controls) -> str:
+    """Which of the bones that push it the muscle went into, and how deep; nothing before they push fully."""
+    if controls.ramp < 1:
+        return ""
+    depths = depths_in_obstacles(problem, vector, controls.flexion)
+    worst = max(depths, key=lambda name: depths[name], default="")
+    return f"it went {depths[worst]:.1f} mm into the {worst}" if worst and depths[worst] > DEEPEST else ""
 
 
 def set_controls(problem: MuscleProblem, controls: Controls) -> None:

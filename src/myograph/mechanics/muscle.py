@@ -1,14 +1,15 @@
 """One muscle by finite elements: ask for an activation and an angle, get the deformed, stressed muscle."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import ngsolve as ngs
 import numpy as np
+from jaxtyping import Float
 
 from myograph.anatomy.model import Arm
 from myograph.case import check_activation, check_muscle
-from myograph.errors import InputError, NotConvergedError
+from myograph.errors import InputError
 from myograph.mechanics.continuation import Controls, Solved, at_rest, reach, set_controls
 from myograph.mechanics.problem import MuscleProblem
 from myograph.mechanics.soundness import Soundness, check_clear, soundness
@@ -74,67 +75,40 @@ class FiniteElementMuscle:
         check_clear(self._problem)
         self._reader = FieldReader(self._problem)
 
+    @property
+    def name(self) -> str:
+        """Which muscle."""
+        return self._problem.name
+
     def solve(self, activation: float, angle: float) -> MuscleState:
         """State at an activation in [0, 1] and an elbow flexion [rad] inside the arm's range.
 
         Raises InputError outside the box, NotConvergedError where Newton's method fails.
         """
         check_activation(activation, self._problem.name)
-        flexion = self._flexion(angle)
-        relaxed = reach(self._problem, at_rest(self._problem), Controls(1.0, 0.0, flexion))
-        return self._state(reach(self._problem, relaxed, Controls(1.0, activation, flexion)))
+        relaxed = self.reach(self.at_rest(), 0.0, angle)
+        return self.read(self.reach(relaxed, activation, angle))
 
-    def walk(
-        self, angles: Sequence[float], activations: Sequence[float]
-    ) -> Iterator[tuple[int, int, MuscleState | FailedState]]:
-        """All states of the grid angles [rad] x activations (rising from 0), each from a solved neighbour.
+    def at_rest(self) -> Solved:
+        """The start of every walk: the reference pose, pre-stretched, not activated."""
+        return at_rest(self._problem)
 
-        The angle is swept at rest, outwards from the reference pose; at every angle the activation rises. Where that
-        fails, the state is tried from the same activation at the angle before. Yields (angle's index, activation's
-        index, state); a state that fails all the same is yielded with its reason.
+    def reach(self, start: Solved, activation: float, angle: float) -> Solved:
+        """State at an activation and an elbow flexion [rad], on the straight way from a solved one.
+
+        Raises InputError outside the box, NotConvergedError where the way ends.
         """
-        start = at_rest(self._problem)
-        reference = self.arm.reference_angle
-        up = [k for k, angle in enumerate(angles) if angle >= reference]
-        down = [k for k, angle in reversed(list(enumerate(angles))) if angle < reference]
-        for side in (up, down):
-            column: dict[int, Solved] = {-1: start}
-            for k in side:
-                before, flexion = column, self._flexion(angles[k])
-                rest = self._try(Controls(1.0, 0.0, flexion), [before[-1]])
-                column = {-1: rest if isinstance(rest, Solved) else before[-1]}
-                here = rest
-                for j, activation in enumerate(activations):
-                    starts = [start for start in (here, before.get(j)) if isinstance(start, Solved)]
-                    here = self._try(Controls(1.0, activation, flexion), starts) if starts else here
-                    if isinstance(here, Solved):
-                        column[j] = here
-                    yield k, j, self._outcome(here, activation, angles[k])
+        check_activation(activation, self._problem.name)
+        return reach(self._problem, start, Controls(1.0, activation, self._flexion(angle)))
 
-    def _try(self, target: Controls, starts: list[Solved]) -> Solved | NotConvergedError:
-        """The target reached from the first start that leads there, or the first failure."""
-        failures = []
-        for start in starts:
-            try:
-                return reach(self._problem, start, target)
-            except NotConvergedError as failure:
-                failures.append(failure)
-        return failures[0]
+    def restored(self, activation: float, angle: float, vector: Float[np.ndarray, " unknowns"]) -> Solved:
+        """A state that was solved before, from its unknowns; raise InputError for those of another mesh."""
+        if len(vector) != self._problem.vector_size:
+            raise InputError(f"{self.name}: expected {self._problem.vector_size} unknowns, got {len(vector)}")
+        return Solved(Controls(1.0, activation, self._flexion(angle)), vector, 0)
 
-    def _outcome(
-        self, solved: Solved | NotConvergedError, activation: float, angle: float
-    ) -> MuscleState | FailedState:
-        if isinstance(solved, Solved):
-            return self._state(solved)
-        return FailedState(self._problem.name, activation, angle, str(solved))
-
-    def _flexion(self, angle: float) -> float:
-        low, high = self.arm.hinge.range_deg
-        if not np.isfinite(angle) or not low - 1e-9 <= degrees(angle) <= high + 1e-9:
-            raise InputError(f"elbow angle: expected {low:g} to {high:g} degrees, got {degrees(angle):g}")
-        return angle - self.arm.reference_angle
-
-    def _state(self, solved: Solved) -> MuscleState:
+    def read(self, solved: Solved) -> MuscleState:
+        """What a solved state tells."""
         set_controls(self._problem, solved.controls)
         return MuscleState(
             muscle=self._problem.name,
@@ -145,3 +119,9 @@ class FiniteElementMuscle:
             newton_steps=solved.newton_steps,
             soundness=soundness(self._problem, solved.vector, solved.controls.flexion),
         )
+
+    def _flexion(self, angle: float) -> float:
+        low, high = self.arm.hinge.range_deg
+        if not np.isfinite(angle) or not low - 1e-9 <= degrees(angle) <= high + 1e-9:
+            raise InputError(f"elbow angle: expected {low:g} to {high:g} degrees, got {degrees(angle):g}")
+        return angle - self.arm.reference_angle

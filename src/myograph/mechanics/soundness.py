@@ -48,6 +48,14 @@ def soundness(problem: MuscleProblem, vector: Float[np.ndarray, " unknowns"], fl
     )
 
 
+def depths_in_obstacles(
+    problem: MuscleProblem, vector: Float[np.ndarray, " unknowns"], flexion: float
+) -> dict[str, float]:
+    """Largest depth [mm] of a node of the free skin inside each obstacle that pushes the muscle."""
+    depths = _depths(problem, problem.positions(vector), flexion, problem.muscle.contact.bones)
+    return {name: float(depth.max()) for name, depth in depths.items()}
+
+
 def check_clear(problem: MuscleProblem) -> None:
     """Raise InputError where the reference body starts inside one of the obstacles that push it."""
     points = problem.mesh.points

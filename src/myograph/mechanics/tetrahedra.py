@@ -1,7 +1,7 @@
 """The mesh of a muscle from its closed surface: remeshed to a target size, filled with tetrahedra by Netgen, curved.
 
 Netgen keeps the triangles that it is given; what it would make of a drawn surface itself is ten times finer where the
-surface has needles, or fails. The mesh keeps the surface's volume to two hundredths, or is refused.
+surface has needles, or fails. The mesh keeps the surface's volume to a hundredth, or is refused.
 """
 
 from typing import Any
@@ -26,7 +26,7 @@ from myograph.mesh.tetrahedra import TET10
 _NETGEN: Any = netgen.meshing
 """Its names come from a compiled module that no checker of types sees."""
 GRADING = 0.3
-LARGEST_LOSS = 0.02
+LARGEST_LOSS = 0.01
 """Of volume, as a share."""
 
 

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from jaxtyping import Float, Num
 
-from myograph.case import check_muscle
 from myograph.errors import InputError
 from myograph.view.canvas import legend_below, new_figure, png, tidy
-from myograph.view.palette import INK, MUSCLE_COLOURS, SERIES_COLOURS
+from myograph.view.palette import INK, SERIES_COLOURS, muscle_colours
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -76,14 +75,15 @@ def draw_moments(
     if len(levels) > len(STYLES):
         raise InputError(f"plot of moments: expected at most {len(STYLES)} activations, got {len(levels)}: {levels}")
     style = dict(zip(levels, STYLES, strict=False))
+    colours = muscle_colours(moments_nm)
     lines = [
-        Line("", angle_deg, moment, MUSCLE_COLOURS[check_muscle(muscle)], style[level])
+        Line("", angle_deg, moment, colours[muscle], style[level])
         for muscle, curves in moments_nm.items()
         for level, moment in curves.items()
     ]
     figure = _plot(lines, "elbow flexion [°]", "moment [N·m]; positive flexes", logarithmic=False)
     figure.axes[0].axhline(0, color=INK, linewidth=0.8)
-    hues = [Line(muscle, angle_deg, angle_deg, MUSCLE_COLOURS[muscle]) for muscle in moments_nm]
+    hues = [Line(muscle, angle_deg, angle_deg, colours[muscle]) for muscle in moments_nm]
     dashes = [Line(f"activation {level:g}", angle_deg, angle_deg, INK, style[level]) for level in levels]
     legend_below(figure, [_artist(line) for line in hues + dashes])
     return png(figure)

@@ -1,5 +1,7 @@
 """Colours: five hues that colour-blind readers tell apart (Okabe and Ito) for the five muscles, and the rest."""
 
+from collections.abc import Iterable
+
 from myograph.case import MUSCLES
 
 MUSCLE_COLOURS: dict[str, str] = dict(
@@ -19,3 +21,13 @@ SENSOR = "#000000"
 QUERY = "#0072b2"
 ARROW = "#b3005e"
 UNKNOWN = "#9aa0a6"
+
+
+def muscle_colours(names: Iterable[str]) -> dict[str, str]:
+    """Colour of each muscle: that of the arm's five; for others those that are left, in order."""
+    wanted = list(names)
+    taken = {MUSCLE_COLOURS[name] for name in wanted if name in MUSCLE_COLOURS}
+    free = [colour for colour in SERIES_COLOURS if colour not in taken]
+    others = [name for name in wanted if name not in MUSCLE_COLOURS]
+    colours = {name: free[place % len(free)] for place, name in enumerate(others)}
+    return {name: MUSCLE_COLOURS.get(name) or colours[name] for name in wanted}

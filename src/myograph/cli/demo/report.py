@@ -31,7 +31,7 @@ def write_demo_report(
         pictures = figures(simulation, comparison)
     angles = np.degrees(simulation.dataset["elbow_angle"].values)
     sizes = simulation.dataset.sizes
-    states = sum(table.grid.size for table in simulation.tables.values())
+    states = sum(table.size for table in simulation.tables.values())
     newton = np.mean([table.record.newton_steps.mean() for table in simulation.tables.values()])
     strict = {method: row["strict"] for method, row in comparison.summaries.items()}
     best = min((m for m in strict if m.startswith("gen")), key=lambda m: strict[m].mean_mm)

@@ -13,9 +13,10 @@ from myograph.cli.demo.sizes import MUSCLE, SEED, DemoSize
 from myograph.cli.progress import Steps
 from myograph.ensemble.dataset import dataset_from_solutions, save_dataset
 from myograph.ensemble.design import factorial_cases, off_grid_cases
-from myograph.limb.table import MuscleTable, regular_grid
 from myograph.limb.table_arm import TableArm
-from myograph.limb.tabulate import tabulate
+from myograph.limb.tables.spec import TableSpec
+from myograph.limb.tables.table import MuscleTable
+from myograph.limb.tables.tabulate import tabulate
 
 
 @dataclass(frozen=True)
@@ -29,10 +30,15 @@ class Simulation:
 
 
 def simulate(arm: Arm, preset: str, size: DemoSize, out: Path, steps: Steps) -> Simulation:
-    """Tabulate all muscles, solve all cases, gather and store the dataset."""
-    grid = regular_grid(arm, size.angles, size.activations)
-    with steps.bars("finite elements", dict.fromkeys(arm.muscles, grid.size)) as advance:
-        tables = tabulate(arm, preset, grid, out / "tables", advance)
+    """Tabulate all muscles, solve all cases, gather and store the dataset.
+
+    Raises NotConvergedError where a state fails, after all others are solved and kept.
+    """
+    spec = TableSpec(most_states=size.states, held_out=0)
+    with steps.bars("finite elements", dict.fromkeys(arm.muscles, spec.most)) as advance:
+        tables = tabulate(arm, preset, spec, out / "tables", advance)
+    for table in tables.values():
+        table.require_complete()
     table_arm = TableArm(arm, tables)
     designs = {"factorial": factorial_cases(), "off_grid": off_grid_cases(size.off_grid, SEED)}
     cases = [(design, case) for design, chosen in designs.items() for case in chosen]

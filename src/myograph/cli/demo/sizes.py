@@ -11,16 +11,15 @@ class DemoSize:
 
     Parameters
     ----------
-    angles, activations
-        States in the table of each muscle.
+    states
+        Most states in the table of each muscle.
     off_grid
         Cases with continuous activations.
     steps
         Training steps of the small and of the large network, by nodes per axis.
     """
 
-    angles: int
-    activations: int
+    states: int
     off_grid: int
     steps: dict[int, int]
 
@@ -29,9 +28,9 @@ SENSORS = 9
 SEED = 0
 MUSCLE = "biceps"
 SIZES = {
-    "tiny": DemoSize(angles=9, activations=5, off_grid=12, steps={2: 500, 7: 300}),
-    "quick": DemoSize(angles=11, activations=5, off_grid=24, steps={2: 6000, 7: 2500}),
-    "thesis": DemoSize(angles=11, activations=5, off_grid=32, steps={2: 12000, 7: 8000}),
+    "tiny": DemoSize(states=50, off_grid=12, steps={2: 500, 7: 300}),
+    "quick": DemoSize(states=55, off_grid=24, steps={2: 6000, 7: 2500}),
+    "thesis": DemoSize(states=55, off_grid=32, steps={2: 12000, 7: 8000}),
 }
 
 

@@ -14,7 +14,7 @@ from myograph.mesh.surface.drawn import Drawn
 from myograph.mesh.surface.remesh import Remeshed
 from myograph.mesh.tetrahedra import EDGES, TET10
 
-_SPOILT = 0.15
+_SPOILT = 0.05
 """Scaled Jacobian below which an element's middles go back."""
 _BACK, _ROUNDS = 0.9, 25
 

@@ -1,0 +1,98 @@
+"""`myograph ensemble run` and `resume`: from a design to a full store; running again goes on."""
+
+import shlex
+import sys
+from importlib.metadata import version
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+import myograph
+from myograph.cli.ensemble.asked import Angle, Count, DesignMethod, File, Level, Load, Seed, Step, asked_design
+from myograph.cli.ensemble.compute import Scheduler, Slurm, TimeLimit, Where, Workers, compute, tell
+from myograph.cli.ensemble.tables import tables_ready
+from myograph.cli.options import ArmFile, Json, read_arm
+from myograph.config import parse
+from myograph.ensemble.config import EnsembleConfig, read_config
+from myograph.ensemble.design import make_design
+from myograph.ensemble.spec import SimulatorSpec
+from myograph.ensemble.store.making import make_store, plan_store
+from myograph.ensemble.store.plan import read_plan
+from myograph.errors import InputError
+
+
+def run(
+    out: Annotated[Path, typer.Option(help="Folder of the store; one that is there already is gone on with.")],
+    config: Annotated[Path | None, typer.Argument(help="TOML file of the ensemble.")] = None,
+    design: DesignMethod = None,
+    step: Step = None,
+    count: Count = None,
+    seed: Seed = None,
+    level: Level = None,
+    cases: File = None,
+    load_n: Load = None,
+    angle_deg: Angle = None,
+    simulator: Annotated[str | None, typer.Option(help="table, direct, or package.module:function.")] = None,
+    preset: Annotated[str | None, typer.Option(help="Size: tiny, quick or thesis.")] = None,
+    muscle: Annotated[list[str] | None, typer.Option(help="Store only this muscle; several times for more.")] = None,
+    tables: Annotated[Path | None, typer.Option(help="Folder of the arm's tables; built there if missing.")] = None,
+    arm_file: ArmFile = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    slurm: Slurm = None,
+    time_limit: TimeLimit = None,
+    json: Json = False,
+) -> None:
+    """Compute all cases of a design; run it again to go on after an interrupt.
+
+    A case that fails is stored with its reason; the others go on.
+    """
+    numbers = {"step": step, "count": count, "seed": seed, "level": level, "file": cases}
+    chosen = asked_design({"method": design, **numbers, "hand_load_n": load_n, "elbow_angle_deg": angle_deg})
+    options = {"simulator": simulator, "preset": preset, "muscles": muscle and tuple(muscle), "arm": arm_file}
+    given: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
+    if config is not None and (chosen is not None or given):
+        raise InputError(f"expected either {config} or options of the design and the simulator, got both")
+    if chosen is not None:
+        given["design"] = (chosen,)
+    asked = read_config(config) if config else parse(given, EnsembleConfig, "ensemble")
+    _make(asked, tables or asked.tables, out)
+    limit = time_limit if time_limit is not None else asked.run.time_limit_s
+    tell(compute(out, Where(workers or asked.run.workers, scheduler, slurm, limit)), json)
+
+
+def resume(
+    store: Annotated[Path, typer.Argument(help="Folder of the store.")],
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    slurm: Slurm = None,
+    time_limit: TimeLimit = None,
+    json: Json = False,
+) -> None:
+    """Compute what is missing in a store."""
+    read_plan(store)
+    tell(compute(store, Where(workers, scheduler, slurm, time_limit)), json)
+
+
+def _make(asked: EnsembleConfig, tables: Path | None, out: Path) -> None:
+    """The store, and before that the tables, if the simulator needs them."""
+    design, arm = make_design(asked.design), read_arm(asked.arm)
+    folder = tables or out.with_name(f"tables-{asked.preset}")
+    if asked.simulator == "table":
+        tables_ready(arm, asked.preset, folder)
+    else:
+        folder = None
+    place = None if folder is None else str(folder.resolve())
+    spec = SimulatorSpec(asked.simulator, asked.preset, arm.model_dump_json(), place, asked.gravity)
+    plan, bodies = plan_store(design, spec, asked.muscles)
+    make_store(out, plan, bodies, _provenance())
+
+
+def _provenance() -> dict[str, str]:
+    packages = ("numpy", "scipy", "xarray", "zarr", "numcodecs")
+    return {
+        "command": shlex.join(sys.argv),
+        "myograph_version": myograph.__version__,
+        **{f"{package}_version": version(package) for package in packages},
+    }

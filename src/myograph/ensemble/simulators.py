@@ -1,0 +1,129 @@
+"""Simulators by name: what travels to a worker is a small spec; the simulator itself is made there, once.
+
+    table              the arm from its tables, `TableArm`
+    direct             the arm by finite elements, `DirectArm`
+    package.module:f   your own: f(spec) returns a `Simulator` with an attribute `bodies`, muscle -> `Body`
+
+A simulator whose answers depend on the cases before (warm starts) has a method `forget()` that makes it as new;
+`remembers` says so. One that remembers and cannot forget is made anew.
+"""
+
+import importlib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, Protocol, runtime_checkable
+
+from myograph.anatomy.load import arm_checksum
+from myograph.anatomy.model import Arm
+from myograph.case import MUSCLES, Case, Simulator, Solution
+from myograph.ensemble.spec import Body, SimulatorSpec
+from myograph.errors import InputError, MissingPackageError, MyographError
+from myograph.limb.table_arm import TableArm
+from myograph.limb.tables.provenance import table_key
+from myograph.limb.tables.table import MuscleTable
+from myograph.limb.tables.table_file import load_table, table_path
+from myograph.mesh.presets import muscle_mesh, resolution
+
+BUILT_IN = ("table", "direct")
+
+
+@runtime_checkable
+class OwnSimulator(Protocol):
+    """What a factory of your own returns: a `Simulator` that knows its bodies."""
+
+    @property
+    def bodies(self) -> Mapping[str, Body]:
+        """Muscle -> reference body."""
+        ...
+
+    def __call__(self, case: Case) -> Solution:
+        """Answer the case."""
+        ...
+
+
+def read_arm(spec: SimulatorSpec) -> Arm:
+    """The arm of a spec."""
+    return Arm.model_validate_json(spec.arm)
+
+
+def make_simulator(spec: SimulatorSpec) -> Simulator:
+    """The simulator; raises InputError where something it needs is not there."""
+    if spec.kind == "table":
+        arm = read_arm(spec)
+        return TableArm(arm, _tables(spec, arm), spec.gravity)
+    if spec.kind == "direct":
+        try:
+            from myograph.limb.direct_arm import DirectArm
+        except ModuleNotFoundError as missing:
+            raise MissingPackageError(str(missing.name), "simulate", "solving muscles") from None
+        return DirectArm(read_arm(spec), spec.preset, gravity=spec.gravity)
+    return _own(spec)
+
+
+def make_bodies(spec: SimulatorSpec) -> dict[str, Body]:
+    """The reference bodies that belong to the simulator's fields, by muscle."""
+    if spec.kind in BUILT_IN:
+        arm = read_arm(spec)
+        meshes = {name: muscle_mesh(arm, name, resolution(spec.preset)) for name in MUSCLES}
+        return {name: Body(mesh.points, mesh.skin, mesh.cells) for name, mesh in meshes.items()}
+    return dict(_own(spec).bodies)
+
+
+def describe_simulator(spec: SimulatorSpec) -> dict[str, Any]:
+    """All that the answers depend on, not where it lies; raises InputError for tables of another arm or preset."""
+    arm = read_arm(spec)
+    tables = {name: table.key for name, table in _tables(spec, arm).items()} if spec.kind == "table" else {}
+    return {
+        "kind": spec.kind,
+        "preset": spec.preset,
+        "arm_checksum": arm_checksum(arm),
+        "gravity": spec.gravity,
+        "tables": tables,
+    }
+
+
+def made_anew(simulator: Simulator, spec: SimulatorSpec) -> Simulator:
+    """The simulator as if it had not been asked yet."""
+    if not spec.remembers:
+        return simulator
+    forget = getattr(simulator, "forget", None)
+    if forget is None:
+        return make_simulator(spec)
+    forget()
+    return simulator
+
+
+def _tables(spec: SimulatorSpec, arm: Arm) -> dict[str, MuscleTable]:
+    if spec.tables is None:
+        raise InputError("simulator 'table': expected a folder of tables; make one with 'myograph table build'")
+    tables = {}
+    for name in MUSCLES:
+        path = table_path(Path(spec.tables), name)
+        table = load_table(path)
+        if table.preset != spec.preset or table.key != table_key(arm, name, table.preset, table.spec):
+            raise InputError(
+                f"{path}: expected a table of this arm of preset '{spec.preset}', got one of another arm or version,"
+                f" or of preset '{table.preset}'; take another folder, or build it anew"
+            )
+        table.require_complete()
+        tables[name] = table
+    return tables
+
+
+def _own(spec: SimulatorSpec) -> OwnSimulator:
+    module, _, name = spec.kind.partition(":")
+    if not module or not name.isidentifier():
+        raise InputError(f"simulator: expected 'table', 'direct' or 'package.module:function', got '{spec.kind}'")
+    try:
+        factory: Callable[[SimulatorSpec], Any] = getattr(importlib.import_module(module), name)
+    except (ImportError, AttributeError) as problem:
+        raise InputError(f"simulator '{spec.kind}': cannot be imported: {problem}") from None
+    try:
+        simulator: Any = factory(spec)
+    except MyographError:
+        raise
+    except Exception as problem:
+        raise InputError(f"simulator '{spec.kind}': {type(problem).__name__}: {problem}") from None
+    if not isinstance(simulator, OwnSimulator):
+        raise InputError(f"simulator '{spec.kind}': expected a callable with 'bodies', got {type(simulator).__name__}")
+    return simulator

@@ -1,0 +1,54 @@
+"""Damage removed: shared files are written again, cases that are damaged lose their row and are computed again."""
+
+import os
+import shutil
+import uuid
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from myograph.ensemble.node_fields import NODE_FIELDS
+from myograph.ensemble.spec import Body
+from myograph.ensemble.store.aside import ASIDE, sweep
+from myograph.ensemble.store.checking import Problem
+from myograph.ensemble.store.checksum import checksum
+from myograph.ensemble.store.chunks import chunk_path
+from myograph.ensemble.store.making import write_still
+from myograph.ensemble.store.plan import StorePlan
+from myograph.ensemble.store.rows import row_path
+from myograph.errors import InputError
+
+
+def forget_damage(store: Path, plan: StorePlan, problems: Sequence[Problem], bodies: Mapping[str, Body]) -> None:
+    """Make the store such that running it again computes what was damaged; only under the store's lock.
+
+    Raises InputError where the shared files cannot be made again as they were.
+    """
+    sweep(store)
+    if any(problem.case is None for problem in problems):
+        _restore(store, plan, bodies)
+    for case in {problem.case for problem in problems if problem.case is not None}:
+        forget_case(store, plan, case)
+
+
+def forget_case(store: Path, plan: StorePlan, case: int) -> None:
+    """Remove a case's row, then its arrays."""
+    with suppress(FileNotFoundError):
+        row_path(store, case).unlink()
+    for muscle in plan.muscles:
+        for field in NODE_FIELDS:
+            with suppress(FileNotFoundError):
+                chunk_path(store, muscle, field, case).unlink()
+
+
+def _restore(store: Path, plan: StorePlan, bodies: Mapping[str, Body]) -> None:
+    aside = store / ASIDE / uuid.uuid4().hex
+    write_still(aside, plan, bodies)
+    try:
+        for name, expected in plan.still.items():
+            if checksum((aside / name).read_bytes()) != expected:
+                raise InputError(f"{store}/{name}: cannot be made again as it was; run the ensemble into a new store")
+            (store / name).parent.mkdir(parents=True, exist_ok=True)
+            os.replace(aside / name, store / name)
+    finally:
+        shutil.rmtree(aside, ignore_errors=True)

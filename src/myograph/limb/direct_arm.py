@@ -1,0 +1,143 @@
+"""The arm by finite elements: every muscle solved at the angle at which all moments cancel; slow and the truth.
+
+The balance is followed from a first guess towards the side to which the net moment turns the elbow, until it changes
+its sign, and is closed in by a bracketed search.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.optimize import root_scalar
+
+from myograph.anatomy.model import Arm
+from myograph.case import MUSCLES, Case, Solution
+from myograph.errors import InputError, NotConvergedError
+from myograph.limb.moments import WeightsAndStops
+from myograph.mechanics.continuation import Solved
+from myograph.mechanics.muscle import FiniteElementMuscle, MuscleState
+from myograph.units import degrees, newton_metres, radians
+
+ACCURACY = radians(0.005)
+"""Of an equilibrium's angle [rad]."""
+_FIRST_STEP, _LARGEST_STEP = radians(1.0), radians(15.0)
+_NEAR = 0.2
+"""Change of activation plus change of angle [rad] up to which a state is reached straight from another."""
+_MEMORY = 40
+"""Active states that are kept of each muscle."""
+Balance = Callable[[float], float]
+
+
+class DirectArm:
+    """Simulator that solves every muscle at a case's equilibrium; one thread, one process.
+
+    Parameters
+    ----------
+    preset
+        Size of the meshes.
+    gravity
+        Whether the forearm's own weight acts.
+    guess
+        Angle [rad] from which a case's equilibrium is sought; the reference pose where none is given.
+    """
+
+    def __init__(
+        self, arm: Arm, preset: str = "quick", *, gravity: bool = True, guess: Callable[[Case], float] | None = None
+    ) -> None:
+        self.arm, self._guess = arm, guess
+        self._outside = WeightsAndStops(arm.load, arm.stops, gravity)
+        self._muscles = {name: _Remembering(FiniteElementMuscle(arm, name, preset)) for name in MUSCLES}
+
+    def __call__(self, case: Case) -> Solution:
+        """Fields of all muscles at the case's angle, or at the equilibrium next to the guess.
+
+        Raises InputError where there is no equilibrium in the arm's range, NotConvergedError where a muscle fails.
+        """
+        angle = self._rest(case) if case.elbow_angle is None else case.elbow_angle
+        states = {name: self._state(name, case, angle) for name in MUSCLES}
+        moments = {name: state.moment for name, state in states.items()}
+        return Solution(case, angle, moments, {name: state.fields for name, state in states.items()}, "direct")
+
+    def forget(self) -> None:
+        """Start the next case as the first one, whatever was solved before."""
+        for muscle in self._muscles.values():
+            muscle.forget()
+
+    def net_moment(self, case: Case, angle: float) -> float:
+        """Sum of all moments about the elbow [N*mm] at an angle [rad]."""
+        muscles = sum(self._state(name, case, angle).moment for name in MUSCLES)
+        return muscles + float(self._outside(np.array([angle]), case.hand_load)[0])
+
+    def _rest(self, case: Case) -> float:
+        low, high = (radians(bound) for bound in self.arm.hinge.range_deg)
+        start = self.arm.reference_angle if self._guess is None else self._guess(case)
+        try:
+            return stable_root(lambda angle: self.net_moment(case, angle), start, low, high)
+        except InputError as problem:
+            raise InputError(
+                f"activations {case.activations} with {case.hand_load:g} N in the hand: {problem}; change the load or"
+                " the activations"
+            ) from None
+
+    def _state(self, name: str, case: Case, angle: float) -> MuscleState:
+        return self._muscles[name].state(case.activations[MUSCLES.index(name)], angle)
+
+
+def stable_root(balance: Balance, start: float, low: float, high: float) -> float:
+    """The angle [rad] in [low, high] to which a net moment turns the elbow from a start.
+
+    Raises InputError where it turns it to the end of the range.
+    """
+    here, moment = min(max(start, low), high), balance(min(max(start, low), high))
+    upwards, step = moment > 0, _FIRST_STEP
+    while moment != 0:
+        beyond = min(here + step, high) if upwards else max(here - step, low)
+        if beyond == here:
+            raise InputError(
+                f"expected an angle at rest from {degrees(low):g} to {degrees(high):g} degrees, got a net moment of"
+                f" {newton_metres(moment):.2f} N·m at {degrees(here):g} degrees"
+            )
+        after = balance(beyond)
+        if (after > 0) != upwards:
+            return float(root_scalar(balance, bracket=(here, beyond), xtol=ACCURACY).root)
+        here, moment, step = beyond, after, min(2 * step, _LARGEST_STEP)
+    return here
+
+
+class _Remembering:
+    """A muscle whose states start from those that were solved before: from a near one straight, else by way of rest."""
+
+    def __init__(self, muscle: FiniteElementMuscle) -> None:
+        self._muscle = muscle
+        self._reference = muscle.arm.reference_angle
+        self._rest: dict[float, Solved] = {self._reference: muscle.at_rest()}
+        self._active: dict[tuple[float, float], Solved] = {}
+
+    def forget(self) -> None:
+        """Keep nothing but the muscle at rest in the reference pose."""
+        self._rest = {self._reference: self._rest[self._reference]}
+        self._active.clear()
+
+    def state(self, activation: float, angle: float) -> MuscleState:
+        """State at an activation and an angle [rad]."""
+        if (activation, angle) not in self._active:
+            self._active[activation, angle] = self._reached(activation, angle)
+            if len(self._active) > _MEMORY:
+                del self._active[next(iter(self._active))]
+        return self._muscle.read(self._active[activation, angle])
+
+    def _reached(self, activation: float, angle: float) -> Solved:
+        near = [known for known in self._active if abs(known[0] - activation) + abs(known[1] - angle) < _NEAR]
+        if near:
+            nearest = min(near, key=lambda known: abs(known[0] - activation) + abs(known[1] - angle))
+            try:
+                return self._muscle.reach(self._active[nearest], activation, angle)
+            except NotConvergedError:
+                del self._active[nearest]
+        return self._muscle.reach(self._at_rest(angle), activation, angle)
+
+    def _at_rest(self, angle: float) -> Solved:
+        place = min(self._rest, key=lambda known: abs(known - angle))
+        if abs(place - angle) > _NEAR / 2:
+            self._rest[angle] = self._muscle.reach(self._rest[place], 0.0, angle)
+            place = angle
+        return self._rest[place]

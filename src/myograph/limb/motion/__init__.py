@@ -1,0 +1,1 @@
+"""The limb over time: activations from files, equilibria one after the other, forward dynamics."""
