@@ -51,7 +51,7 @@ def _solved(arm, name, mesh):
     return np.array([newton_metres(s.moment) for s in states]), _belly(mesh, states[-1].fields["position"]), states[-1]
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_tetrahedra_and_hexahedra_agree_the_better_the_finer():
     """The anconeus, relaxed and active, at another angle."""
     arm, name = built_in_arm(), "anconeus"

@@ -97,7 +97,7 @@ def test_flattened_energies_assemble_to_the_same_numbers_as_interpreted_ones(law
         assert ours == pytest.approx(theirs, rel=1e-10, abs=1e-11 * np.abs(theirs).max())
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.skipif(shutil.which("c++") is None, reason="no C++ compiler here")
 def test_all_laws_as_machine_code_assemble_to_the_same_numbers():
     """One sum with one law of every name, compiled once."""
