@@ -105,6 +105,7 @@ def test_damage_is_named_with_exit_code_3_and_repaired_to_the_same_bytes(full):
     assert store_checksum(store) == before
 
 
+@pytest.mark.exhaustive
 def test_an_interrupted_run_of_a_file_is_resumed(tmp_path):
     (tmp_path / "arm.toml").write_text(
         f'simulator = "{synthetic.FACTORY}"\npreset = "sleep=0.1 fail=1000"\nmuscles = ["biceps"]\n'

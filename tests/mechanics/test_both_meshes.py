@@ -64,7 +64,7 @@ def test_tetrahedra_and_hexahedra_agree_the_better_the_finer():
     assert fine[2].fields["cauchy_stress"].shape == (len(fine[2].fields["position"]), 6)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.reference
 @pytest.mark.skipif(not ROOT.exists(), reason="the reference data are not here; set MYOGRAPH_REFERENCE_DATA")
 def test_the_reference_biceps_goes_the_whole_way():
