@@ -121,16 +121,24 @@ def _sleep(seconds, tell):
 
 
 @pytest.mark.skipif(not Path("/proc").exists(), reason="looks at Linux's table of processes")
-def test_workers_end_when_their_parent_is_killed(tmp_path):
+def test_all_processes_end_when_their_parent_is_killed(tmp_path):
     (tmp_path / "parent.py").write_text(PARENT)
     root = Path(__file__).parents[1]
     environment = {**os.environ, "PYTHONPATH": str(root)}
     command = [sys.executable, str(tmp_path / "parent.py")]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as parent:
         worker = int(parent.stdout.readline())
+        children = _children(parent.pid)
+        assert worker in children
         parent.kill()
     for _ in range(100):
-        if not Path(f"/proc/{worker}").exists():
+        left = [child for child in children if Path(f"/proc/{child}").exists()]
+        if not left:
             return
         time.sleep(0.1)
-    raise AssertionError("the worker outlived its parent by ten seconds")
+    raise AssertionError(f"{len(left)} processes outlived their parent by ten seconds")
+
+
+def _children(parent):
+    stats = [path.read_text() for path in Path("/proc").glob("[0-9]*/stat")]
+    return [int(stat.split()[0]) for stat in stats if int(stat.rpartition(")")[2].split()[1]) == parent]

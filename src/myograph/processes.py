@@ -11,6 +11,7 @@ import signal
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
+from multiprocessing.managers import SyncManager
 from typing import Any, TypeVar
 
 Result = TypeVar("Result")
@@ -25,7 +26,9 @@ def side_by_side(work: Callable[..., Result], tasks: Sequence[tuple], on_news: N
     if not tasks:
         return []
     context = multiprocessing.get_context("spawn")
-    with context.Manager() as manager:
+    manager = SyncManager(ctx=context)
+    manager.start(_prepare)
+    with manager:
         news = manager.Queue()
         pool = ProcessPoolExecutor(min(len(tasks), os.cpu_count() or 1), context, initializer=_prepare)
         try:

@@ -7,14 +7,12 @@ from typing import Annotated
 import typer
 
 from myograph.anatomy.model import Dynamics, Load
-from myograph.case import MUSCLES
 from myograph.cli.options import read_arm
 from myograph.errors import InputError
 from myograph.limb.force_limb import limb_from_forces, read_force_limb
 from myograph.limb.limb import Limb
 from myograph.limb.table_arm import TableArm
-from myograph.limb.tables.provenance import table_key
-from myograph.limb.tables.table_file import load_table, table_path
+from myograph.limb.tables.folder import load_tables
 
 Tables = Annotated[
     Path | None, typer.Option("--tables", help="Folder of the arm's tables, from 'myograph table build'.")
@@ -79,14 +77,6 @@ def read_source(asked: Asked) -> LimbSource:
 
 
 def read_table_arm(tables: Path, arm_file: Path | None, gravity: bool) -> TableArm:
-    """The arm of the file, or the built-in one, from its tables in a folder.
-
-    Raises InputError for a table that is missing or of another arm, NotConvergedError for one with failed states.
-    """
+    """The arm of the file, or the built-in one, from its tables in a folder; raises as `load_tables` does."""
     arm = read_arm(arm_file)
-    loaded = {name: load_table(table_path(tables, name)) for name in MUSCLES}
-    for name, table in loaded.items():
-        if table.key != table_key(arm, name, table.preset, table.spec):
-            raise InputError(f"{table_path(tables, name)}: made for another arm or version; build it anew")
-        table.require_complete()
-    return TableArm(arm, loaded, gravity)
+    return TableArm(arm, load_tables(tables, arm), gravity)

@@ -53,7 +53,7 @@ def build(
     spec = TableSpec(tolerance_mm=tolerance_mm, tolerance_nm=tolerance_nm, most_states=most_states)
     names = [check_muscle(name) for name in muscle or MUSCLES]
     resolution(preset)
-    tables = _build(anatomy, preset, spec, out, names)
+    tables = build_tables(anatomy, preset, spec, out, names)
     rows = {name: describe_table(table, table_path(out, name), anatomy) for name, table in tables.items()}
     _show(rows, json)
     failed = [table for table in tables.values() if table.failures]
@@ -96,7 +96,8 @@ def describe_table(table: MuscleTable, path: Path, arm: Arm) -> dict[str, Any]:
     }
 
 
-def _build(arm: Arm, preset: str, spec: TableSpec, out: Path, names: list[str]) -> dict[str, MuscleTable]:
+def build_tables(arm: Arm, preset: str, spec: TableSpec, out: Path, names: list[str]) -> dict[str, MuscleTable]:
+    """Tables of muscles in a folder, with progress; raises MissingPackageError without finite elements."""
     try:
         import myograph.mechanics.muscle  # noqa: F401
     except ModuleNotFoundError as missing:

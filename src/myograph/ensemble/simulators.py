@@ -19,9 +19,8 @@ from myograph.case import MUSCLES, Case, Simulator, Solution
 from myograph.ensemble.spec import Body, SimulatorSpec
 from myograph.errors import InputError, MissingPackageError, MyographError
 from myograph.limb.table_arm import TableArm
-from myograph.limb.tables.provenance import table_key
+from myograph.limb.tables.folder import load_tables
 from myograph.limb.tables.table import MuscleTable
-from myograph.limb.tables.table_file import load_table, table_path
 from myograph.mesh.presets import muscle_mesh, resolution
 
 BUILT_IN = ("table", "direct")
@@ -96,18 +95,7 @@ def made_anew(simulator: Simulator, spec: SimulatorSpec) -> Simulator:
 def _tables(spec: SimulatorSpec, arm: Arm) -> dict[str, MuscleTable]:
     if spec.tables is None:
         raise InputError("simulator 'table': expected a folder of tables; make one with 'myograph table build'")
-    tables = {}
-    for name in MUSCLES:
-        path = table_path(Path(spec.tables), name)
-        table = load_table(path)
-        if table.preset != spec.preset or table.key != table_key(arm, name, table.preset, table.spec):
-            raise InputError(
-                f"{path}: expected a table of this arm of preset '{spec.preset}', got one of another arm or version,"
-                f" or of preset '{table.preset}'; take another folder, or build it anew"
-            )
-        table.require_complete()
-        tables[name] = table
-    return tables
+    return load_tables(Path(spec.tables), arm, spec.preset)
 
 
 def _own(spec: SimulatorSpec) -> OwnSimulator:

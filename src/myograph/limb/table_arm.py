@@ -1,6 +1,6 @@
 """The arm from its tables: any activations and load in milliseconds."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,36 +10,8 @@ from myograph.anatomy.model import Arm
 from myograph.case import MUSCLES, Case, Solution
 from myograph.limb.equilibrium import Equilibrium
 from myograph.limb.limb import Limb, arm_limb
-from myograph.limb.tables.table import FIELDS_IN_TABLE, MuscleTable
+from myograph.limb.tables.table import MuscleTable
 from myograph.units import degrees
-
-NODE_FIELDS = (*FIELDS_IN_TABLE, "von_mises")
-
-
-@dataclass(frozen=True, eq=False)
-class TableFields(Mapping[str, np.ndarray]):
-    """The node fields of one muscle at an angle [rad] and an activation, each expanded when it is first asked for."""
-
-    table: MuscleTable
-    angle: float
-    activation: float
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self._expanded:
-            if name not in NODE_FIELDS:
-                raise KeyError(name)
-            self._expanded[name] = self.table.field(name, self.angle, self.activation)
-        return self._expanded[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(NODE_FIELDS)
-
-    def __len__(self) -> int:
-        return len(NODE_FIELDS)
-
-    @cached_property
-    def _expanded(self) -> dict[str, np.ndarray]:
-        return {}
 
 
 @dataclass(frozen=True)
@@ -65,7 +37,7 @@ class TableArm:
         angle, notes = (case.elbow_angle, ()) if case.elbow_angle is not None else self._rest(case)
         activations = dict(zip(MUSCLES, case.activations, strict=True))
         moments = {name: float(self.tables[name].moment(np.array([angle]), activations[name])[0]) for name in MUSCLES}
-        fields = {name: TableFields(self.tables[name], angle, activations[name]) for name in MUSCLES}
+        fields = {name: self.tables[name].at(angle, activations[name]) for name in MUSCLES}
         return Solution(case, angle, moments, fields, "table", notes)
 
     @cached_property

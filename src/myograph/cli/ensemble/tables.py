@@ -4,8 +4,7 @@ from pathlib import Path
 
 from myograph.anatomy.model import Arm
 from myograph.case import MUSCLES
-from myograph.cli.progress import Steps
-from myograph.errors import MissingPackageError
+from myograph.cli.table import build_tables
 from myograph.limb.tables.spec import TableSpec
 from myograph.limb.tables.table_file import table_path
 from myograph.mesh.presets import resolution
@@ -18,16 +17,6 @@ def tables_ready(arm: Arm, preset: str, folder: Path) -> None:
     """
     resolution(preset)
     names = [name for name in MUSCLES if not table_path(folder, name).exists()]
-    if not names:
-        return
-    try:
-        import myograph.mechanics.muscle  # noqa: F401
-    except ModuleNotFoundError as missing:
-        raise MissingPackageError(str(missing.name), "simulate", "building tables") from None
-    from myograph.limb.tables.tabulate import tabulate
-
-    spec = TableSpec()
-    with Steps().bars("states, at most", dict.fromkeys(names, spec.most)) as advance:
-        tables = tabulate(arm, preset, spec, folder, advance, names)
-    for table in tables.values():
-        table.require_complete()
+    if names:
+        for table in build_tables(arm, preset, TableSpec(), folder, names).values():
+            table.require_complete()

@@ -4,7 +4,7 @@ The fields of all states are compressed to few modes (`TOLERANCES`); their coeff
 interpolated by B-splines on the sparse grid. A value between the points is one small matrix-vector product.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -124,17 +124,14 @@ class MuscleTable:
 
     def field(self, name: str, angle: float, activation: float) -> Float[np.ndarray, "nodes ..."]:
         """One node field (see `myograph.fields`) at an angle [rad]; raises InputError outside the box."""
-        stored = "cauchy_stress" if name == "von_mises" else name
-        values = self._expanded(stored, self.coefficients(np.array([angle, activation])))
-        return von_mises(values) if name == "von_mises" else values
+        return self.at(angle, activation)[name]
 
-    def at(self, angle: float, activation: float) -> dict[str, np.ndarray]:
-        """All node fields; the von Mises stress from the interpolated stress."""
-        coefficients = self.coefficients(np.array([angle, activation]))
-        values = {name: self._expanded(name, coefficients) for name in FIELDS_IN_TABLE}
-        return {**values, "von_mises": von_mises(values["cauchy_stress"])}
+    def at(self, angle: float, activation: float) -> "NodeFields":
+        """All node fields at an angle [rad], by name; each is computed when it is first asked for."""
+        return NodeFields(self, self.coefficients(np.array([angle, activation])))
 
-    def _expanded(self, name: str, coefficients: np.ndarray) -> np.ndarray:
+    def expanded(self, name: str, coefficients: Float[np.ndarray, " modes"]) -> Float[np.ndarray, "nodes ..."]:
+        """One stored field from the coefficients of the modes of all of them."""
         shape = (len(self.reference), *FIELDS_IN_TABLE[name])
         return self.modes[name].expand(coefficients[self._columns[name]]).reshape(shape)
 
@@ -165,6 +162,35 @@ class MuscleTable:
         shifts = self.coefficients.surpluses[:, self._columns["position"]] / np.sqrt(len(self.reference))
         moments = self.spline_moment.interpolant.surpluses.reshape(-1, 1) / 1000
         return np.concatenate([shifts / self.spec.tolerance_mm, moments / self.spec.tolerance_nm], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class NodeFields(Mapping[str, np.ndarray]):
+    """The node fields of one state of a table; the von Mises stress follows from the interpolated stress."""
+
+    table: MuscleTable
+    coefficients: Float[np.ndarray, " modes"]
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._ready:
+            stress = name == "von_mises"
+            self._ready[name] = von_mises(self["cauchy_stress"]) if stress else self._stored(name)
+        return self._ready[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter((*FIELDS_IN_TABLE, "von_mises"))
+
+    def __len__(self) -> int:
+        return len(FIELDS_IN_TABLE) + 1
+
+    def _stored(self, name: str) -> np.ndarray:
+        if name not in FIELDS_IN_TABLE:
+            raise KeyError(name)
+        return self.table.expanded(name, self.coefficients)
+
+    @cached_property
+    def _ready(self) -> dict[str, np.ndarray]:
+        return {}
 
 
 def compressed(states: Sequence[State], nodes: int) -> dict[str, Modes]:
