@@ -25,7 +25,7 @@ from myograph.mechanics.algebra import Tangent
 from myograph.mechanics.continuation import Controls, set_controls
 from myograph.mechanics.newton import newton
 from myograph.mechanics.problem import MuscleProblem
-from myograph.mesh.presets import muscle_mesh, resolution
+from myograph.mesh.presets import preset_mesh
 from myograph.units import radians
 
 INCREMENTS, ACTIVATION, TURN = 8, 0.5, radians(5.0)
@@ -96,7 +96,7 @@ def build(name: str, preset: str, native: bool) -> TimedProblem:
     ngs.ngsglobals.msg_level = 0
     problem_module.Tangent = TimedTangent
     arm = free_arm(name)
-    return TimedProblem(arm, name, muscle_mesh(arm, name, resolution(preset)), native=native)
+    return TimedProblem(arm, name, preset_mesh(arm, name, preset), native=native)
 
 
 def description(name: str, preset: str) -> dict[str, np.ndarray]:

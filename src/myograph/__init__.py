@@ -5,9 +5,14 @@ door: a `Case` is asked, a `Simulator` answers with a `Solution`.
 """
 
 from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from myograph.case import MUSCLES, Case, Simulator, Solution
 from myograph.errors import InputError, MyographError, NotConvergedError
+
+if TYPE_CHECKING:
+    from myograph.inference.loaded import LoadedModel
 
 __version__ = version("myograph")
 
@@ -20,4 +25,12 @@ __all__ = [
     "Simulator",
     "Solution",
     "__version__",
+    "load",
 ]
+
+
+def load(folder: Path | str, threads: int = 1) -> "LoadedModel":
+    """A saved model, ready to answer; see `myograph.inference.loaded.load`."""
+    from myograph.inference.loaded import load as load_model
+
+    return load_model(folder, threads)

@@ -10,6 +10,7 @@ import pytest
 from myograph.anatomy.load import built_in_arm
 from myograph.cli.demo import run_demo
 from myograph.cli.progress import Steps
+from myograph.ensemble.store.reading import read_muscle
 from myograph.errors import MissingPackageError
 
 
@@ -34,11 +35,14 @@ def test_the_demo_simulates_learns_and_reports(tmp_path):
     assert page.count("data:image/png;base64,") >= 8
     assert "://" not in page.replace("http://www.w3.org", "")
     assert {path.name for path in (tmp_path / "demo").iterdir()} == {
-        "dataset.zarr", "models", "report.html", "tables", "tensorboard",
+        "ensemble", "models", "report.html", "tables", "training",
     }  # fmt: skip
+    networks = ["gen_343-strict", "gen_343-thesis", "gen_8-strict", "gen_8-thesis"]
+    assert sorted(path.name for path in (tmp_path / "demo" / "models").iterdir()) == networks
+    assert len(read_muscle(tmp_path / "demo" / "ensemble", "biceps")) == result["cases"]
 
 
-@pytest.mark.parametrize("missing", ["ngsolve", "torch", "tensorboard", "matplotlib"])
+@pytest.mark.parametrize("missing", ["ngsolve", "torch", "tensorboard", "onnxscript", "matplotlib"])
 def test_a_missing_package_is_named_before_anything_is_computed(missing, tmp_path, monkeypatch):
     monkeypatch.setattr("myograph.cli.demo.verb.find_spec", lambda name: None if name == missing else object())
     with pytest.raises(MissingPackageError, match=f"the demo needs the package '{missing}'.*myograph\\[all\\]"):

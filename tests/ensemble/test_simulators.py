@@ -14,14 +14,14 @@ from myograph.limb.tables.adaptive import built
 from myograph.limb.tables.provenance import table_key
 from myograph.limb.tables.spec import TableSpec
 from myograph.limb.tables.table_file import load_table, save_table, table_path
-from myograph.mesh.presets import muscle_mesh, resolution
+from myograph.mesh.presets import preset_mesh
 from tests.ensemble import synthetic
 from tests.limb.conftest import STRENGTH, FormulaStates
 
 
 def states(arm, name):
     """States of a formula on the tiny mesh."""
-    mesh = muscle_mesh(arm, name, resolution("tiny"))
+    mesh = preset_mesh(arm, name, "tiny")
 
     def formula(reference, angle, activation):
         grown, ones = 1 + 0.1 * activation * np.sin(angle), np.ones(len(reference))
@@ -44,7 +44,7 @@ def tables(tmp_path_factory):
     return folder
 
 
-def spec(folder, **changes):
+def spec(folder, /, **changes):
     arm = built_in_arm().model_dump_json()
     return SimulatorSpec(**{"kind": "table", "preset": "tiny", "arm": arm, "tables": str(folder), **changes})
 
@@ -103,3 +103,25 @@ def test_tables_of_another_arm_are_refused(tables, tmp_path):
         save_table(other, table_path(tmp_path, name))
     with pytest.raises(InputError, match="got one of another arm or version"):
         make_simulator(spec(tmp_path))
+
+
+def test_finite_elements_seek_equilibria_from_those_of_tables_where_there_are_some(tables, monkeypatch):
+    made = {}
+
+    def direct(*_, guess, **__):
+        made["guess"] = guess
+        return make_simulator(spec(tables))
+
+    monkeypatch.setattr("myograph.limb.direct_arm.DirectArm", direct)
+    make_simulator(spec(tables, kind="direct", preset="quick", tables=None))
+    assert made["guess"] is None
+    make_simulator(spec(tables, kind="direct", preset="quick"))
+    case = Case((0.2, 0.4, 0.1, 0.9, 0.6))
+    assert made["guess"](case) == make_simulator(spec(tables))(case).elbow_angle
+
+
+def test_answers_of_finite_elements_depend_on_the_tables_they_start_from(tables):
+    alone = describe_simulator(spec(tables, kind="direct", tables=None))
+    helped = describe_simulator(spec(tables, kind="direct"))
+    assert alone["tables"] == {}
+    assert helped["tables"] == describe_simulator(spec(tables))["tables"]

@@ -6,19 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from myograph.errors import InputError
-from myograph.evaluation import NodeErrors, evaluate, node_errors, summarise
-
-
-class Shift:
-    """Predicts that every query moves by the same vector [mm]."""
-
-    name = "shift"
-
-    def __init__(self, *vector: float) -> None:
-        self.vector = np.array(vector)
-
-    def predict(self, sensors, queries):
-        return queries + self.vector
+from myograph.evaluation import Evaluation, NodeErrors, node_errors, stress_errors, summarise
 
 
 def pairs(seed: int = 0, batch: int = 4, nodes: int = 30) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -39,7 +27,7 @@ def test_error_of_a_node_is_its_euclidean_distance():
 def test_summary_equals_figures_worked_out_by_hand():
     """Errors 0, 1, ..., 100: mean 50, rmse sqrt(100·101·201/6 / 101), 95th percentile 95, largest 100."""
     errors = np.arange(101, dtype=np.float32).reshape(1, -1)
-    summary = NodeErrors(errors, mean_displacement=25.0).summary()
+    summary = Evaluation(NodeErrors(errors, scale=25.0)).summary()
     assert summary.mean_mm == 50
     assert summary.rmse_mm == pytest.approx(np.sqrt(100 * 201 / 6), rel=1e-7)
     assert summary.p95_mm == pytest.approx(95)
@@ -70,25 +58,9 @@ def test_a_rigid_motion_of_everything_changes_no_figure():
         assert getattr(moved, name) == pytest.approx(getattr(still, name), rel=1e-5)
 
 
-def test_evaluating_in_batches_gives_what_all_at_once_gives():
-    _, true, initial = pairs(batch=5)
-    sensors = np.zeros((5, 9, 6))
-    once = evaluate(Shift(1, 0, 0), [(sensors, initial, true)])
-    pieces = [(sensors[part], initial[part], true[part]) for part in (slice(0, 2), slice(2, 5))]
-    parts = evaluate(Shift(1, 0, 0), iter(pieces))
-    np.testing.assert_array_equal(parts.errors, once.errors)
-    assert parts.mean_displacement == pytest.approx(once.mean_displacement, rel=1e-12)
-    assert parts.summary() == summarise(initial + np.array([1.0, 0, 0]), true, initial)
-
-
 def test_node_mean_is_the_mean_over_pairs_of_each_node():
     errors = np.array([[1.0, 2.0, 3.0], [3.0, 2.0, 7.0]], dtype=np.float32)
     np.testing.assert_array_equal(NodeErrors(errors, 1.0).node_mean, np.array([2, 2, 5], dtype=np.float32))
-
-
-def test_errors_are_kept_in_single_precision():
-    _, true, initial = pairs()
-    assert evaluate(Shift(0, 0, 0), [(np.zeros((4, 9, 6)), initial, true)]).errors.dtype == np.float32
 
 
 def test_shapes_that_differ_are_refused_with_both_shapes():
@@ -105,19 +77,14 @@ def test_positions_that_are_no_numbers_are_refused_by_name(name, bad):
         node_errors(**positions)
 
 
+def test_stresses_that_differ_in_shape_or_are_no_numbers_are_refused():
+    with pytest.raises(InputError, match=r"\(1, 5\) as the true stresses, got \(1, 4\)"):
+        stress_errors(np.zeros((1, 4)), np.zeros((1, 5)))
+    with pytest.raises(InputError, match="predicted stresses: expected finite numbers, got 1 of 4"):
+        stress_errors(np.array([[0, 0, np.nan, 0]]), np.zeros((1, 4)))
+
+
 def test_a_relative_error_needs_something_that_moves():
     still = np.zeros((1, 4, 3))
     with pytest.raises(InputError, match="nodes that move"):
         summarise(still, still, still)
-
-
-@pytest.mark.parametrize("batches", [[], [(np.zeros((0, 9, 6)), np.zeros((0, 4, 3)), np.zeros((0, 4, 3)))]])
-def test_evaluating_no_pair_is_refused(batches):
-    with pytest.raises(InputError, match="at least one pair"):
-        evaluate(Shift(0, 0, 0), batches)
-
-
-def test_batches_with_different_queries_are_refused():
-    batches = [(np.zeros((1, 9, 6)), np.zeros((1, n, 3)), np.zeros((1, n, 3))) for n in (4, 5)]
-    with pytest.raises(InputError, match="4 queries in every batch, got 5"):
-        evaluate(Shift(0, 0, 0), batches)

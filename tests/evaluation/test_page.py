@@ -109,6 +109,15 @@ def test_a_method_without_a_protocol_shows_dashes_there():
     assert "●" in rows[-2][1]
 
 
+def test_stresses_and_coverage_have_columns_only_where_a_method_knows_them():
+    knowing = ErrorSummary(1.0, 1.5, 2.0, 4.0, 0.1, von_mises_mean_mpa=0.25, von_mises_max_mpa=3.0, coverage_90=0.91)
+    errors = {"affine": {"strict": summary(2.0)}, "gen_8": {"strict": knowing}}
+    head, *rows = Page(report_page(report(errors=errors))).rows[-3:]
+    assert head[6:] == ["von Mises, mean [MPa]", "von Mises, maximum [MPa]", "within 90 % interval"]
+    assert rows[0][6:] == ["–", "–", "–"]
+    assert rows[1][6:] == ["● 0.25", "● 3.00", "0.91"]
+
+
 def test_each_known_protocol_is_explained():
     text = report_page(report())
     assert text.count("tests new") == 3

@@ -36,4 +36,9 @@ def test_sparse_grid():
 
 
 def test_every_example_has_a_test():
-    assert {path.stem for path in EXAMPLES.glob("*.py")} == {"moment_over_angle", "sparse_grid", "specimen"}
+    assert {path.stem for path in EXAMPLES.glob("*.py")} == {
+        "heat_in_houses",
+        "moment_over_angle",
+        "sparse_grid",
+        "specimen",
+    }

@@ -64,9 +64,9 @@ def test_the_angle_goes_outwards_from_the_reference_pose_and_the_activation_rise
 def test_further_points_start_from_what_is_solved(anconeus, monkeypatch):
     original, starts = muscle_module.reach, []
 
-    def spy(problem, start, target):
+    def spy(problem, start, target, most=None):
         starts.append((start.controls.activation, start.controls.flexion, target.activation))
-        return original(problem, start, target)
+        return original(problem, start, target, most=most)
 
     monkeypatch.setattr(muscle_module, "reach", spy)
     walk = Walk(anconeus)
@@ -113,10 +113,10 @@ def test_a_point_outside_the_box_is_refused(anconeus):
 def test_a_state_that_fails_is_yielded_with_its_reason_and_the_others_are_solved(anconeus, monkeypatch):
     original = muscle_module.reach
 
-    def stubborn(problem, start, target):
+    def stubborn(problem, start, target, most=None):
         if target.activation == 1.0 and target.flexion > 0:
             raise NotConvergedError("no way there")
-        return original(problem, start, target)
+        return original(problem, start, target, most=most)
 
     monkeypatch.setattr(muscle_module, "reach", stubborn)
     states = dict(Walk(anconeus).states(points_of([55.0, 65.0], (0.0, 0.5, 1.0))))
@@ -129,12 +129,36 @@ def test_a_state_that_fails_is_yielded_with_its_reason_and_the_others_are_solved
 def test_an_active_state_is_reached_from_the_angle_before_where_rest_fails(anconeus, monkeypatch):
     original = muscle_module.reach
 
-    def no_rest(problem, start, target):
+    def no_rest(problem, start, target, most=None):
         if target.activation == 0.0 and target.flexion > 0.3:
             raise NotConvergedError("slack")
-        return original(problem, start, target)
+        return original(problem, start, target, most=most)
 
     monkeypatch.setattr(muscle_module, "reach", no_rest)
     states = dict(Walk(anconeus).states(points_of([65.0, 80.0], (0.0, 1.0))))
     assert isinstance(states[2], FailedState)
     assert isinstance(states[3], MuscleState)
+
+
+def test_a_muscle_that_folds_at_rest_is_turned_contracted_and_relaxed_there(anconeus, monkeypatch):
+    original, way = muscle_module.reach, []
+
+    def folding(problem, start, target, most=None):
+        if most is not None:
+            raise NotConvergedError(f"not reached with {most} tangents")
+        way.append((start.controls.activation, target.activation))
+        return original(problem, start, target)
+
+    walk = Walk(anconeus)
+    dict(walk.states(points_of([75.0], (0.0, 1.0))))
+    monkeypatch.setattr(muscle_module, "reach", folding)
+    state = dict(walk.states(points_of([85.0], (0.0,))))[0]
+    assert isinstance(state, MuscleState)
+    assert way == [(1.0, 1.0), (1.0, 0.0)]
+
+
+def test_a_way_ends_where_its_tangents_are_used_up(anconeus, monkeypatch):
+    resting = anconeus.at_rest()
+    monkeypatch.setattr("myograph.mechanics.newton.MOST_STEPS", 0)
+    with pytest.raises(NotConvergedError, match="not reached with 0 tangents"):
+        anconeus.reach(resting, 1.0, np.radians(100.0), most=0)

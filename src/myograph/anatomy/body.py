@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.integrate import trapezoid
 from scipy.interpolate import CubicSpline
 
 from myograph.anatomy.hinge import Hinge
@@ -43,6 +44,11 @@ class Body:
     centres: Float[np.ndarray, "stations 3"]
     areas: Float[np.ndarray, " stations"]
     length: float
+
+    @property
+    def volume(self) -> float:
+        """Volume [mm³]."""
+        return float(trapezoid(self.areas)) * self.length / (len(self.areas) - 1)
 
 
 def muscle_body(arm: Arm, name: str, stations: int) -> Body:

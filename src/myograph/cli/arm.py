@@ -11,7 +11,7 @@ from myograph.anatomy.model import Arm
 from myograph.case import MUSCLES
 from myograph.cli.options import ArmFile, Json, Preset, print_json, read_arm
 from myograph.files import write_whole
-from myograph.mesh.presets import muscle_mesh, resolution
+from myograph.mesh.presets import preset_mesh
 from myograph.mesh.quality import scaled_jacobians
 
 
@@ -42,7 +42,7 @@ def describe_arm(anatomy: Arm, preset: str) -> dict[str, Any]:
     """Checksum of the arm, and size and mesh quality of each muscle."""
     rows = {}
     for name in MUSCLES:
-        mesh = muscle_mesh(anatomy, name, resolution(preset))
+        mesh = preset_mesh(anatomy, name, preset)
         rows[name] = {
             "length_mm": mesh.length,
             "volume_cm3": mesh.volume() / 1000,
@@ -60,7 +60,7 @@ def draw_anatomy(anatomy: Arm, preset: str) -> bytes:
 
     muscles = []
     for name in MUSCLES:
-        mesh = muscle_mesh(anatomy, name, resolution(preset))
+        mesh = preset_mesh(anatomy, name, preset)
         share = tendon_share(anatomy, name, mesh)
         muscles.append(Surface(mesh.points, mesh.skin, name, MUSCLE_COLOURS[name], share))
     return draw_arm([*bone_surfaces(anatomy, 0.0), *muscles], anatomy.name)

@@ -7,6 +7,7 @@ import numpy as np
 import typer
 
 from myograph.case import MUSCLES
+from myograph.cli.bench_learn import learn
 from myograph.cli.limb_source import read_table_arm
 from myograph.cli.options import ArmFile, Json, print_json
 from myograph.cli.progress import Steps
@@ -28,6 +29,9 @@ _TIMED = 1000
 @app.callback()
 def _bench() -> None:
     """Speed and accuracy, as ratios within one run."""
+
+
+app.command()(learn)
 
 
 @app.command()
@@ -70,7 +74,7 @@ def _judged(arm: TableArm, preset: str, count: int, seed: int) -> dict[str, Any]
     rows: list[Judgement] = []
     steps = Steps()
     with steps.bars("finite elements", {"cases": count}) as advance:
-        direct = DirectArm(arm.arm, preset, gravity=arm.gravity, guess=lambda case: arm(case).elbow_angle)
+        direct = DirectArm(arm.arm, preset, gravity=arm.gravity, guess=arm.angle)
         for row in judge(arm, direct, chosen):
             rows.append(row)
             advance("cases")

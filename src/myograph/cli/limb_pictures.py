@@ -12,7 +12,7 @@ from myograph.files import write_whole
 from myograph.limb.limb import Limb
 from myograph.limb.motion.movement import Movement
 from myograph.limb.table_arm import TableArm
-from myograph.mesh.presets import muscle_mesh, resolution
+from myograph.mesh.presets import preset_mesh
 from myograph.mesh.tissue import tendon_share
 from myograph.units import NEWTON_MM_PER_NEWTON_METRE
 from myograph.view import Surface, draw_equilibria, draw_film, draw_moments, draw_movement
@@ -99,4 +99,4 @@ def film_picture(arm: TableArm, movement: Movement) -> bytes:
 
 def _tendon(arm: TableArm, name: str) -> Float[np.ndarray, " nodes"]:
     """Fraction of tendon at each node of a muscle's table."""
-    return tendon_share(arm.arm, name, muscle_mesh(arm.arm, name, resolution(arm.tables[name].preset)))
+    return tendon_share(arm.arm, name, preset_mesh(arm.arm, name, arm.tables[name].preset))

@@ -1,7 +1,7 @@
 """Simulators by name: what travels to a worker is a small spec; the simulator itself is made there, once.
 
     table              the arm from its tables, `TableArm`
-    direct             the arm by finite elements, `DirectArm`
+    direct             the arm by finite elements, `DirectArm`; equilibria are sought from those of tables, if given
     package.module:f   your own: f(spec) returns a `Simulator` with an attribute `bodies`, muscle -> `Body`
 
 A simulator whose answers depend on the cases before (warm starts) has a method `forget()` that makes it as new;
@@ -21,9 +21,11 @@ from myograph.errors import InputError, MissingPackageError, MyographError
 from myograph.limb.table_arm import TableArm
 from myograph.limb.tables.folder import load_tables
 from myograph.limb.tables.table import MuscleTable
-from myograph.mesh.presets import muscle_mesh, resolution
+from myograph.mesh.presets import preset_mesh
 
 BUILT_IN = ("table", "direct")
+IMPORT = "import"
+"""What stands for the simulator of imported data; nothing can make it."""
 
 
 @runtime_checkable
@@ -55,7 +57,9 @@ def make_simulator(spec: SimulatorSpec) -> Simulator:
             from myograph.limb.direct_arm import DirectArm
         except ModuleNotFoundError as missing:
             raise MissingPackageError(str(missing.name), "simulate", "solving muscles") from None
-        return DirectArm(read_arm(spec), spec.preset, gravity=spec.gravity)
+        arm = read_arm(spec)
+        guess = TableArm(arm, _tables(spec, arm), spec.gravity).angle if spec.tables else None
+        return DirectArm(arm, spec.preset, gravity=spec.gravity, guess=guess)
     return _own(spec)
 
 
@@ -63,7 +67,7 @@ def make_bodies(spec: SimulatorSpec) -> dict[str, Body]:
     """The reference bodies that belong to the simulator's fields, by muscle."""
     if spec.kind in BUILT_IN:
         arm = read_arm(spec)
-        meshes = {name: muscle_mesh(arm, name, resolution(spec.preset)) for name in MUSCLES}
+        meshes = {name: preset_mesh(arm, name, spec.preset) for name in MUSCLES}
         return {name: Body(mesh.points, mesh.skin, mesh.cells) for name, mesh in meshes.items()}
     return dict(_own(spec).bodies)
 
@@ -71,7 +75,8 @@ def make_bodies(spec: SimulatorSpec) -> dict[str, Body]:
 def describe_simulator(spec: SimulatorSpec) -> dict[str, Any]:
     """All that the answers depend on, not where it lies; raises InputError for tables of another arm or preset."""
     arm = read_arm(spec)
-    tables = {name: table.key for name, table in _tables(spec, arm).items()} if spec.kind == "table" else {}
+    used = spec.kind == "table" or (spec.kind == "direct" and spec.tables is not None)
+    tables = {name: table.key for name, table in _tables(spec, arm).items()} if used else {}
     return {
         "kind": spec.kind,
         "preset": spec.preset,
@@ -95,10 +100,12 @@ def made_anew(simulator: Simulator, spec: SimulatorSpec) -> Simulator:
 def _tables(spec: SimulatorSpec, arm: Arm) -> dict[str, MuscleTable]:
     if spec.tables is None:
         raise InputError("simulator 'table': expected a folder of tables; make one with 'myograph table build'")
-    return load_tables(Path(spec.tables), arm, spec.preset)
+    return load_tables(Path(spec.tables), arm, spec.preset if spec.kind == "table" else None)
 
 
 def _own(spec: SimulatorSpec) -> OwnSimulator:
+    if spec.kind == IMPORT:
+        raise InputError("imported data cannot be computed again: import them again, with 'myograph dataset import'")
     module, _, name = spec.kind.partition(":")
     if not module or not name.isidentifier():
         raise InputError(f"simulator: expected 'table', 'direct' or 'package.module:function', got '{spec.kind}'")

@@ -38,7 +38,7 @@ class SimulatorSpec:
     arm
         The arm as JSON (`Arm.model_dump_json`).
     tables
-        Folder of the tables, for 'table'.
+        Folder of the tables, for 'table'; for 'direct' those from whose equilibria the search begins, if wanted.
     gravity
         Whether the forearm's own weight acts.
     """

@@ -1,115 +1,97 @@
-"""Errors of predicted node positions, in mm.
+"""Errors of what methods answer: of positions in mm, of von Mises stress in MPa.
 
-Error of a node in a pair: e = |predicted - true| (Euclidean). Over all nodes of all pairs
+Error of a node in a pair: e = |predicted - true| (Euclidean for positions). Over all nodes of all pairs
 
-    mean = <e>    rmse = sqrt <e²>    p95 = 95th percentile    max    relative = <e> / <|true - initial|>
+    mean = <e>    rmse = sqrt <e²>    p95 = 95th percentile    max    relative = <e> / scale
 
-so that predicting no movement at all has relative 1 by definition, whatever the data. Nothing here depends on where the
-muscle is: a rigid motion of everything changes no figure.
+The scale of positions is the mean displacement <|true - initial|>, so that predicting no movement at all has relative
+1 by definition, whatever the data; that of von Mises stress is its mean. coverage_90 is the share of errors within the
+half width of the 90 % interval that the method gives. Nothing here depends on where the muscle is: a rigid motion of
+everything changes no figure.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Float32
 
-from myograph.ensemble.predictor import Predictor
 from myograph.errors import InputError
 
 
 @dataclass(frozen=True)
-class ErrorSummary:
-    """Errors of a method under a protocol [mm]; `relative` is the mean over the mean displacement [-]."""
-
-    mean_mm: float
-    rmse_mm: float
-    p95_mm: float
-    max_mm: float
-    relative: float
-
-
-@dataclass(frozen=True)
 class NodeErrors:
-    """Error of every node in every pair.
+    """Error of every node in every pair, in one field.
 
     Parameters
     ----------
     errors
-        Distance of prediction and truth [mm]; single precision, for a thousand pairs of four thousand nodes are 16 MB.
-    mean_displacement
-        Mean distance from initial to true position [mm].
+        Of each node [mm] or [MPa]; single precision, for a thousand pairs of four thousand nodes are 16 MB.
+    scale
+        What errors are relative to [mm] or [MPa]: the mean displacement, the mean stress.
+    coverage_90
+        Share of errors within the method's 90 % interval, where it gives one.
     """
 
     errors: Float32[np.ndarray, "pairs nodes"]
-    mean_displacement: float
+    scale: float
+    coverage_90: float | None = None
 
     @property
     def node_mean(self) -> Float32[np.ndarray, " nodes"]:
-        """Mean error of each node over the pairs [mm], for a heat map."""
+        """Mean error of each node over the pairs, for a heat map."""
         return self.errors.mean(axis=0)
 
-    def summary(self) -> ErrorSummary:
-        """The five figures; raises InputError where nothing moves, for then no error can be relative."""
-        if not self.mean_displacement > 0:
+    @property
+    def mean(self) -> float:
+        """Mean error."""
+        return float(self.errors.mean(dtype=np.float64))
+
+    @property
+    def rmse(self) -> float:
+        """Root of the mean squared error."""
+        return float(np.sqrt(np.mean(np.square(self.errors), dtype=np.float64)))
+
+    @property
+    def p95(self) -> float:
+        """95th percentile of the errors."""
+        return float(np.percentile(self.errors, 95))
+
+    @property
+    def largest(self) -> float:
+        """Largest error."""
+        return float(self.errors.max())
+
+    @property
+    def relative(self) -> float:
+        """Mean error over the scale [-]; raises InputError where the scale is zero."""
+        if not self.scale > 0:
             raise InputError(
-                f"relative error: expected nodes that move, got a mean displacement of {self.mean_displacement} mm; "
+                f"relative error: expected nodes that move and are stressed, got a mean of {self.scale}; "
                 "leave pairs of a case with itself aside"
             )
-        mean = float(self.errors.mean(dtype=np.float64))
-        return ErrorSummary(
-            mean_mm=mean,
-            rmse_mm=float(np.sqrt(np.mean(np.square(self.errors), dtype=np.float64))),
-            p95_mm=float(np.percentile(self.errors, 95)),
-            max_mm=float(self.errors.max()),
-            relative=mean / self.mean_displacement,
-        )
-
-
-Samples = tuple[
-    Float[np.ndarray, "batch sensors 6"], Float[np.ndarray, "batch queries 3"], Float[np.ndarray, "batch queries 3"]
-]
-"""Of some pairs [mm]: (S, T) at the sensors, S at the queries, T at the queries."""
-
-
-def evaluate(predictor: Predictor, batches: Iterable[Samples]) -> NodeErrors:
-    """Errors of a predictor over batches of (sensors, queries, targets); holds one batch of positions at a time.
-
-    The queries must be the same nodes in all batches.
-    """
-    errors: list[np.ndarray] = []
-    displacement = 0.0
-    for sensors, queries, targets in batches:
-        errors.append(node_errors(predictor.predict(sensors, queries), targets))
-        displacement += float(node_errors(queries, targets).sum(dtype=np.float64))
-        if errors[-1].shape[1] != errors[0].shape[1]:
-            raise InputError(f"expected {errors[0].shape[1]} queries in every batch, got {errors[-1].shape[1]}")
-    if not sum(map(len, errors)):
-        raise InputError("expected at least one pair to evaluate, got none: is the test split empty?")
-    gathered = np.concatenate(errors)
-    return NodeErrors(gathered, displacement / gathered.size)
-
-
-def summarise(
-    predicted: Float[np.ndarray, "batch nodes 3"],
-    true: Float[np.ndarray, "true_batch true_nodes 3"],
-    initial: Float[np.ndarray, "initial_batch initial_nodes 3"],
-) -> ErrorSummary:
-    """Errors of positions [mm] that are all at hand; the three shapes must be equal."""
-    displacement = node_errors(initial, true)
-    return NodeErrors(node_errors(predicted, true), float(displacement.mean(dtype=np.float64))).summary()
+        return self.mean / self.scale
 
 
 def node_errors(
     predicted: Float[np.ndarray, "batch nodes 3"], true: Float[np.ndarray, "true_batch true_nodes 3"]
 ) -> Float32[np.ndarray, "batch nodes"]:
     """Distance of each node from its true position [mm]; raises InputError for shapes that differ, and for NaN."""
-    if predicted.shape != true.shape:
-        raise InputError(f"expected predictions of shape {true.shape} as the true positions, got {predicted.shape}")
-    for name, positions in (("predicted", predicted), ("true", true)):
-        bad = int(np.count_nonzero(~np.isfinite(positions)))
-        if bad:
-            raise InputError(
-                f"{name} positions: expected finite numbers, got {bad} of {positions.size} NaN or infinite"
-            )
+    _check("positions", predicted, true)
     return np.linalg.norm(predicted - true, axis=-1).astype(np.float32)
+
+
+def stress_errors(
+    predicted: Float[np.ndarray, "batch nodes"], true: Float[np.ndarray, "true_batch true_nodes"]
+) -> Float32[np.ndarray, "batch nodes"]:
+    """Absolute error of each node's stress [MPa]; raises InputError for shapes that differ, and for NaN."""
+    _check("stresses", predicted, true)
+    return np.abs(predicted - true).astype(np.float32)
+
+
+def _check(what: str, predicted: np.ndarray, true: np.ndarray) -> None:
+    if predicted.shape != true.shape:
+        raise InputError(f"expected predictions of shape {true.shape} as the true {what}, got {predicted.shape}")
+    for name, values in (("predicted", predicted), ("true", true)):
+        bad = int(np.count_nonzero(~np.isfinite(values)))
+        if bad:
+            raise InputError(f"{name} {what}: expected finite numbers, got {bad} of {values.size} NaN or infinite")

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from myograph.errors import InputError
-from myograph.evaluation.metrics import ErrorSummary
+from myograph.evaluation.summary import ErrorSummary
 
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 

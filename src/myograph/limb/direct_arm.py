@@ -19,7 +19,9 @@ from myograph.units import degrees, newton_metres, radians
 
 ACCURACY = radians(0.005)
 """Of an equilibrium's angle [rad]."""
-_FIRST_STEP, _LARGEST_STEP = radians(1.0), radians(15.0)
+_BALANCED = 0.5
+"""Net moment [N*mm] that counts as none; where the elbow rests, a degree is worth about 300."""
+_FIRST_STEP, _LARGEST_STEP, _GROWTH = radians(0.3), radians(15.0), 3
 _NEAR = 0.2
 """Change of activation plus change of angle [rad] up to which a state is reached straight from another."""
 _MEMORY = 40
@@ -67,11 +69,15 @@ class DirectArm:
         muscles = sum(self._state(name, case, angle).moment for name in MUSCLES)
         return muscles + float(self._outside(np.array([angle]), case.hand_load)[0])
 
+    def _balance(self, case: Case, angle: float) -> float:
+        moment = self.net_moment(case, angle)
+        return moment if abs(moment) > _BALANCED else 0.0
+
     def _rest(self, case: Case) -> float:
         low, high = (radians(bound) for bound in self.arm.hinge.range_deg)
         start = self.arm.reference_angle if self._guess is None else self._guess(case)
         try:
-            return stable_root(lambda angle: self.net_moment(case, angle), start, low, high)
+            return stable_root(lambda angle: self._balance(case, angle), start, low, high)
         except InputError as problem:
             raise InputError(
                 f"activations {case.activations} with {case.hand_load:g} N in the hand: {problem}; change the load or"
@@ -99,7 +105,7 @@ def stable_root(balance: Balance, start: float, low: float, high: float) -> floa
         after = balance(beyond)
         if (after > 0) != upwards:
             return float(root_scalar(balance, bracket=(here, beyond), xtol=ACCURACY).root)
-        here, moment, step = beyond, after, min(2 * step, _LARGEST_STEP)
+        here, moment, step = beyond, after, min(_GROWTH * step, _LARGEST_STEP)
     return here
 
 

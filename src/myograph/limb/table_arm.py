@@ -49,7 +49,13 @@ class TableArm:
         """All angles at which the elbow could rest."""
         return self.limb.equilibria(case.activations, case.hand_load)
 
+    def angle(self, case: Case) -> float:
+        """Elbow angle [rad] of a case: its own, or that of the equilibrium nearest to the reference pose."""
+        if case.elbow_angle is not None:
+            return case.elbow_angle
+        return self.limb.rest(case.activations, case.hand_load, self.arm.reference_angle).angle
+
     def _rest(self, case: Case) -> tuple[float, tuple[str, ...]]:
-        chosen = self.limb.rest(case.activations, case.hand_load, self.arm.reference_angle).angle
+        chosen = self.angle(case)
         others = [f"{degrees(e.angle):.1f}" for e in self.equilibria(case) if e.stable and e.angle != chosen]
         return chosen, (f"also at rest at {', '.join(others)} degrees",) if others else ()

@@ -74,10 +74,13 @@ def at_rest(problem: MuscleProblem) -> Solved:
     return reach(problem, unloaded(problem), Controls(1.0, 0.0, 0.0), first_share=1 / 8)
 
 
-def reach(problem: MuscleProblem, start: Solved, target: Controls, first_share: float = 1.0) -> Solved:
-    """Solve at `target`, from `start`.
+def reach(
+    problem: MuscleProblem, start: Solved, target: Controls, first_share: float = 1.0, most: int | None = None
+) -> Solved:
+    """Solve at `target`, from `start`, with `most` tangents or a few more.
 
-    Raises NotConvergedError with the place and the residuals where even the smallest step does not lead on.
+    Raises NotConvergedError with the place and the residuals where even the smallest step does not lead on, or where
+    the tangents are used up.
     """
     if start.controls == target:
         return start
@@ -99,6 +102,8 @@ def reach(problem: MuscleProblem, start: Solved, target: Controls, first_share: 
             here, rate = Solved(controls, result.vector, steps, *memory), None
             done = 1.0 if done + share > 1 - 1e-9 else done + share
             share *= 3.0 if result.tangents <= _QUICK else 1.5
+        elif most is not None and steps > most:
+            raise _failure(problem, controls, f"not reached with {most} tangents", result.residuals)
         elif share / 2 < SMALLEST_SHARE:
             raise _failure(problem, controls, result.failure, result.residuals)
         else:

@@ -15,7 +15,7 @@ from myograph.mechanics.problem import MuscleProblem
 from myograph.mechanics.soundness import Soundness, check_clear, soundness
 from myograph.mechanics.stress import FieldReader
 from myograph.mesh.muscle_mesh import MuscleMesh
-from myograph.mesh.presets import muscle_mesh, resolution
+from myograph.mesh.presets import preset_mesh
 from myograph.units import degrees
 
 _MANY_CELLS = 300
@@ -70,7 +70,7 @@ class FiniteElementMuscle:
         ngs.SetNumThreads(1)
         ngs.ngsglobals.msg_level = 0
         self.arm = arm
-        self.mesh = muscle_mesh(arm, name, resolution(preset)) if mesh is None else mesh
+        self.mesh = preset_mesh(arm, name, preset) if mesh is None else mesh
         self._problem = MuscleProblem(arm, name, self.mesh, native=len(self.mesh.cells) > _MANY_CELLS)
         check_clear(self._problem)
         self._reader = FieldReader(self._problem)
@@ -93,13 +93,13 @@ class FiniteElementMuscle:
         """The start of every walk: the reference pose, pre-stretched, not activated."""
         return at_rest(self._problem)
 
-    def reach(self, start: Solved, activation: float, angle: float) -> Solved:
+    def reach(self, start: Solved, activation: float, angle: float, most: int | None = None) -> Solved:
         """State at an activation and an elbow flexion [rad], on the straight way from a solved one.
 
-        Raises InputError outside the box, NotConvergedError where the way ends.
+        Raises InputError outside the box, NotConvergedError where the way ends or `most` tangents are used up.
         """
         check_activation(activation, self._problem.name)
-        return reach(self._problem, start, Controls(1.0, activation, self._flexion(angle)))
+        return reach(self._problem, start, Controls(1.0, activation, self._flexion(angle)), most=most)
 
     def restored(self, activation: float, angle: float, vector: Float[np.ndarray, " unknowns"]) -> Solved:
         """A state that was solved before, from its unknowns; raise InputError for those of another mesh."""

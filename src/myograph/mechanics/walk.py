@@ -2,7 +2,8 @@
 
 Every state starts from a solved one that is kept: the angle is swept at rest, outwards from the reference pose, and at
 every angle the activation rises from the nearest smaller one. Where that fails, the state is tried from the nearest
-activation at the nearest other angle.
+activation at the nearest other angle. A slack muscle resists turning, for it folds: where that costs too much at rest,
+it is turned at its largest known activation, and relaxed afterwards.
 """
 
 from collections.abc import Iterable, Iterator
@@ -16,6 +17,8 @@ from myograph.mechanics.muscle import FailedState, FiniteElementMuscle, MuscleSt
 
 _SAME = 9
 """Decimals of an angle [rad] up to which two are one."""
+_PATIENCE = 50
+"""Tangents after which a turn at rest is given up."""
 
 
 class Walk:
@@ -70,9 +73,19 @@ class Walk:
         column = self._column(angle)
         if 0.0 in column:
             return None
-        starts = (states[0.0] for states in self._nearest(angle) if 0.0 in states)
-        result = self._first(0.0, angle, [next(starts)])
+        resting = next(states[0.0] for states in self._nearest(angle) if 0.0 in states)
+        taut = next((states[max(states)] for states in self._nearest(angle) if max(states, default=0.0) > 0), None)
+        result = self._first(0.0, angle, [resting], None if taut is None else _PATIENCE)
+        if taut is not None and isinstance(result, NotConvergedError):
+            result = self._relaxed(angle, taut)
+        if taut is not None and isinstance(result, NotConvergedError):
+            result = self._first(0.0, angle, [resting])
         return result if isinstance(result, NotConvergedError) else None
+
+    def _relaxed(self, angle: float, taut: Solved) -> Solved | NotConvergedError:
+        """The muscle at rest at an angle, from a contracted one that is turned there first."""
+        turned = self._first(taut.controls.activation, angle, [taut])
+        return turned if isinstance(turned, NotConvergedError) else self._first(0.0, angle, [turned])
 
     def _outcome(
         self, angle: float, activation: float, at_rest: NotConvergedError | None
@@ -92,12 +105,14 @@ class Walk:
             return at_rest
         return self._first(activation, angle, starts)
 
-    def _first(self, activation: float, angle: float, starts: Iterable[Solved]) -> Solved | NotConvergedError:
+    def _first(
+        self, activation: float, angle: float, starts: Iterable[Solved], most: int | None = None
+    ) -> Solved | NotConvergedError:
         """The state reached from the first start that leads there, now remembered; or the first failure."""
         failures = []
         for start in starts:
             try:
-                solved = self.muscle.reach(start, activation, angle)
+                solved = self.muscle.reach(start, activation, angle, most)
             except NotConvergedError as failure:
                 failures.append(failure)
             else:

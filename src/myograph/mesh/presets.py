@@ -1,4 +1,8 @@
-"""Mesh sizes by name: about 150, 1,000 and 4,000 Q2 nodes a muscle."""
+"""Mesh sizes by name: about 150, 1,000 and 4,000 Q2 nodes a muscle.
+
+A small muscle has the next coarser layout where the named one would give it cells far smaller than the others': where
+such a one is bent sharply around a joint, very small cells resolve creases of the surface, and solves fail.
+"""
 
 import numpy as np
 
@@ -15,12 +19,24 @@ RESOLUTIONS = {
     "thesis": Resolution(core=2, rings=2, along=22),
 }
 
+SMALLEST_CELL = 100.0
+"""Mean volume of a muscle's cells [mm³], at least; those of the biceps have 730 at 'thesis'."""
+
 
 def resolution(preset: str) -> Resolution:
     """Resolution of a preset; raise InputError for an unknown name."""
     if preset not in RESOLUTIONS:
         raise InputError(f"unknown preset '{preset}': expected one of {', '.join(RESOLUTIONS)}")
     return RESOLUTIONS[preset]
+
+
+def preset_mesh(arm: Arm, name: str, preset: str) -> MuscleMesh:
+    """Checked mesh of the named muscle, of a preset's size; raise InputError for an unknown preset."""
+    wanted = resolution(preset)
+    finest_first = [size for size in reversed(RESOLUTIONS.values()) if size.cells <= wanted.cells]
+    volume = muscle_body(arm, name, 2 * wanted.along + 1).volume
+    size = next((size for size in finest_first if volume / size.cells >= SMALLEST_CELL), finest_first[-1])
+    return muscle_mesh(arm, name, size)
 
 
 def muscle_mesh(arm: Arm, name: str, size: Resolution) -> MuscleMesh:

@@ -25,6 +25,11 @@ class Resolution:
     rings: int
     along: int
 
+    @property
+    def cells(self) -> int:
+        """Number of hexahedra."""
+        return (self.core**2 + 4 * self.core * self.rings) * self.along
+
 
 @dataclass(frozen=True)
 class Tube:

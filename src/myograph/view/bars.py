@@ -13,7 +13,10 @@ PALE = 0.28
 
 
 def draw_error_bars(errors: Mapping[str, Mapping[str, ErrorSummary]]) -> bytes:
-    """PNG of method -> protocol -> errors: full bars for the mean, pale ones for the 95th percentile [mm]."""
+    """PNG of method -> protocol -> errors: full bars for the mean, pale ones for the 95th percentile [mm].
+
+    A method that does not answer positions has no bar.
+    """
     protocols = list(dict.fromkeys(protocol for summaries in errors.values() for protocol in summaries))
     if not protocols:
         raise InputError("bars of errors: expected at least one method under one protocol, got none")
@@ -25,12 +28,13 @@ def draw_error_bars(errors: Mapping[str, Mapping[str, ErrorSummary]]) -> bytes:
     handles = []
     width = 0.84 / len(errors)
     for place, (method, summaries) in enumerate(errors.items()):
-        tested = [index for index, protocol in enumerate(protocols) if protocol in summaries]
-        found = [summaries[protocols[index]] for index in tested]
-        centre = np.array(tested) + (place - (len(errors) - 1) / 2) * width
+        found = [(index, summaries[p]) for index, p in enumerate(protocols) if p in summaries]
+        bars = [(index, s.mean_mm, s.p95_mm) for index, s in found if s.mean_mm is not None and s.p95_mm is not None]
+        places, means, percentiles = np.array(bars).reshape(-1, 3).T
+        centre = places + (place - (len(errors) - 1) / 2) * width
         colour = SERIES_COLOURS[place % len(SERIES_COLOURS)]
-        axes.bar(centre, [s.p95_mm for s in found], 0.9 * width, color=colour, alpha=PALE)
-        axes.bar(centre, [s.mean_mm for s in found], 0.9 * width, color=colour)
+        axes.bar(centre, percentiles, 0.9 * width, color=colour, alpha=PALE)
+        axes.bar(centre, means, 0.9 * width, color=colour)
         handles.append(Patch(color=colour, label=method))
     axes.set_xticks(range(len(protocols)), protocols)
     axes.grid(visible=False, axis="x")

@@ -11,7 +11,7 @@ import zarr
 
 from myograph.case import MUSCLES
 from myograph.ensemble.node_fields import NODE_FIELDS
-from myograph.ensemble.pairs import sample_pairs
+from myograph.ensemble.pairs.sampler import random_sensors
 from myograph.ensemble.simulators import make_simulator
 from myograph.ensemble.store import aside
 from myograph.ensemble.store.chunks import chunk_path, decode, encode
@@ -67,11 +67,11 @@ def test_a_dataset_says_its_units_its_muscle_and_where_it_comes_from(make):
     assert dataset["connectivity"].shape == (1, 27)
 
 
-def test_the_stored_sensors_are_those_that_pairs_draw(make):
-    store = make()
-    filled(store)
-    dataset = open_muscle(store, "biceps").load()
-    np.testing.assert_array_equal(dataset["sensor_nodes"].values, sample_pairs(dataset).sensors)
+@pytest.mark.parametrize(("nodes", "expected"), [(60, 9), (8, 7)])
+def test_the_stored_sensors_are_those_that_pairs_draw(make, nodes, expected):
+    store = make(preset=f"nodes={nodes}")
+    stored = open_muscle(store, "biceps")["sensor_nodes"].values
+    np.testing.assert_array_equal(stored, random_sensors(nodes, expected))
 
 
 def test_a_missing_case_is_nan_and_called_missing(make):

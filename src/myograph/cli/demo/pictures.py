@@ -3,14 +3,13 @@
 import numpy as np
 from jaxtyping import Float
 
-from myograph.case import Solution
 from myograph.cli.arm import bone_surfaces
 from myograph.cli.demo.networks import Comparison
 from myograph.cli.demo.simulation import Simulation
 from myograph.cli.demo.sizes import MUSCLE
 from myograph.evaluation import Figure
-from myograph.learning.mesh import delaunay_edges
-from myograph.mesh.presets import muscle_mesh, resolution
+from myograph.learning.gen.mesh import delaunay_edges
+from myograph.mesh.presets import preset_mesh
 from myograph.mesh.tissue import tendon_share
 from myograph.units import NEWTON_MM_PER_NEWTON_METRE, degrees
 from myograph.view import (
@@ -45,12 +44,12 @@ def figures(simulation: Simulation, comparison: Comparison) -> tuple[Figure, ...
 
 
 def _arm_figure(simulation: Simulation, active: bool) -> Figure:
-    solution = _corner(simulation, 1.0 if active else 0.0)
+    solution = simulation.active if active else simulation.rest
     flexion = solution.elbow_angle - simulation.arm.reference_angle
     muscles = []
     for name, table in simulation.tables.items():
-        preset = simulation.dataset.attrs["preset"]
-        share = tendon_share(simulation.arm, name, muscle_mesh(simulation.arm, name, resolution(preset)))
+        mesh = preset_mesh(simulation.arm, name, simulation.preset)
+        share = tendon_share(simulation.arm, name, mesh)
         points = solution.fields[name]["position"]
         muscles.append(Surface(points, table.skin, name, MUSCLE_COLOURS[name], share))
     state = "all muscles fully active" if active else "all muscles at rest"
@@ -71,7 +70,7 @@ def _moment_figure(simulation: Simulation) -> Figure:
 
 
 def _states_figure(simulation: Simulation, comparison: Comparison) -> Figure:
-    rest, active = (_corner(simulation, level).fields[MUSCLE]["position"] for level in (0.0, 1.0))
+    rest, active = (solution.fields[MUSCLE]["position"] for solution in (simulation.rest, simulation.active))
     picture = draw_states(rest, active, simulation.tables[MUSCLE].skin, comparison.sampler.sensors)
     caption = (
         "The biceps with all muscles at rest and fully active (as figure 5.2 of the thesis): the nine sensors"
@@ -99,22 +98,21 @@ def _heat_figure(simulation: Simulation, comparison: Comparison) -> Figure:
 
 def _nodes_figure(comparison: Comparison) -> Figure:
     networks = [comparison.networks[key] for key in sorted(comparison.networks) if key[1] == "thesis"]
-    before = [
-        NetworkNodes(f"{g.name}, before", g.record.nodes_before, delaunay_edges(g.record.nodes_before))
-        for g in networks
-    ]
-    after = [
-        NetworkNodes(f"{g.name}, after", g.record.nodes_after, delaunay_edges(g.record.nodes_after)) for g in networks
-    ]
-    cloud = comparison.sampler.positions[0]
+    before = [_nodes(f"{trained.predictor.name}, before", trained.nodes_before) for trained in networks]
+    after = [_nodes(f"{trained.predictor.name}, after", trained.module.nodes_mm) for trained in networks]
+    cloud = comparison.sampler.cases.values("position", np.array([0]))[0]
     caption = "The networks' nodes before and after training (as figure 6.2 a–e of the thesis)."
     return Figure(caption, draw_network_nodes(before, after, cloud), "Nodes of both networks before and after training")
 
 
+def _nodes(title: str, positions: Float[np.ndarray, "nodes 3"]) -> NetworkNodes:
+    return NetworkNodes(title, positions, delaunay_edges(positions))
+
+
 def _training_figure(comparison: Comparison) -> Figure:
     runs = {
-        f"{network.name}, {protocol}": _smoothed(network.record.rmse)
-        for (_, protocol), network in sorted(comparison.networks.items())
+        f"{trained.predictor.name}, {protocol}": _smoothed(trained.history.rmse)
+        for (_, protocol), trained in sorted(comparison.networks.items(), key=lambda item: item[0])
     }
     caption = f"Error of the training batches over the steps, each point the mean of {_SMOOTHED} steps."
     return Figure(caption, draw_training(runs), "Training curves")
@@ -125,8 +123,3 @@ def _smoothed(rmse: Float[np.ndarray, " steps"]) -> tuple[Float[np.ndarray, " po
     blocks = len(rmse) // _SMOOTHED
     means = rmse[: blocks * _SMOOTHED].reshape(blocks, _SMOOTHED).mean(axis=1)
     return (np.arange(blocks) + 0.5) * _SMOOTHED, means
-
-
-def _corner(simulation: Simulation, level: float) -> Solution:
-    """Solution with all muscles at one activation."""
-    return next(s for s in simulation.solutions if set(s.case.activations) == {level})

@@ -29,22 +29,22 @@ def write_demo_report(
     """Write `report.html`; returns its path."""
     with steps.timed("figures"):
         pictures = figures(simulation, comparison)
-    angles = np.degrees(simulation.dataset["elbow_angle"].values)
-    sizes = simulation.dataset.sizes
+    cases = simulation.cases
+    angles = np.degrees(cases.elbow_angle)
     states = sum(table.size for table in simulation.tables.values())
     newton = np.mean([table.record.newton_steps.mean() for table in simulation.tables.values()])
-    strict = {method: row["strict"] for method, row in comparison.summaries.items()}
-    best = min((m for m in strict if m.startswith("gen")), key=lambda m: strict[m].mean_mm)
-    reached, nothing = strict[best].mean_mm, strict["do_nothing"].mean_mm
+    strict = {method: row["strict"].mean for method, row in comparison.errors.items()}
+    best = min((method for method in strict if method.startswith("gen")), key=strict.__getitem__)
+    reached, nothing = strict[best], strict["do_nothing"]
     summary = (
         f"Five muscles of the {simulation.arm.name} were solved by finite elements in {states} states"
-        f" ({newton:.1f} Newton steps each), and the elbow's equilibrium was found for {sizes['cases']} activations,"
+        f" ({newton:.1f} Newton steps each), and the elbow's equilibrium was found for {len(cases)} activations,"
         f" from {angles.min():.0f} to {angles.max():.0f} degrees.",
-        f"From {SENSORS} known nodes of the biceps, each method predicts the other {sizes['nodes'] - SENSORS}.",
+        f"From {SENSORS} known nodes of the biceps, each method predicts the other {cases.nodes - SENSORS}.",
         f"On activations never seen in training (protocol strict), {best} is wrong by {reached:.2f} mm in the mean,"
         f" where doing nothing is wrong by {nothing:.2f} mm: a factor of {nothing / reached:.1f}.",
     )
-    title = f"myograph demo, preset {simulation.dataset.attrs['preset']}"
+    title = f"myograph demo, preset {simulation.preset}"
     report = Report(title, summary, comparison.summaries, pictures, steps.seconds, provenance, _LIMITS)
     write_report(report, path)
     return path

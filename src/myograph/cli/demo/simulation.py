@@ -1,60 +1,70 @@
-"""First half of the demo: finite elements, tables, the dataset of the biceps."""
+"""First half of the demo: finite elements, tables, the store of the biceps."""
 
 from dataclasses import dataclass
 from pathlib import Path
 
-import xarray as xr
-
 import myograph
-from myograph.anatomy.load import arm_checksum
 from myograph.anatomy.model import Arm
-from myograph.case import Solution
+from myograph.case import Case, Solution
 from myograph.cli.demo.sizes import MUSCLE, SEED, DemoSize
 from myograph.cli.progress import Steps
-from myograph.ensemble.dataset import dataset_from_solutions, save_dataset
-from myograph.ensemble.design import factorial_cases, off_grid_cases
+from myograph.ensemble.design import Design, factorial_cases, off_grid_cases
+from myograph.ensemble.here import compute_here
+from myograph.ensemble.muscle_cases import MuscleCases
+from myograph.ensemble.spec import SimulatorSpec
+from myograph.ensemble.store.making import make_store, plan_store
+from myograph.ensemble.store.opening import reasons
+from myograph.ensemble.store.reading import read_muscle
+from myograph.errors import NotConvergedError
+from myograph.files import write_whole_folder
 from myograph.limb.table_arm import TableArm
 from myograph.limb.tables.spec import TableSpec
 from myograph.limb.tables.table import MuscleTable
 from myograph.limb.tables.tabulate import tabulate
 
+STORE = "ensemble"
+
 
 @dataclass(frozen=True)
 class Simulation:
-    """What was simulated: the tables of all muscles, the answers to all cases, the dataset of the biceps."""
+    """What was simulated: the tables of all muscles, two answers for pictures, the biceps in its store."""
 
     arm: Arm
+    preset: str
     tables: dict[str, MuscleTable]
-    solutions: tuple[Solution, ...]
-    dataset: xr.Dataset
+    rest: Solution
+    active: Solution
+    store: Path
+    cases: MuscleCases
 
 
 def simulate(arm: Arm, preset: str, size: DemoSize, out: Path, steps: Steps) -> Simulation:
-    """Tabulate all muscles, solve all cases, gather and store the dataset.
+    """Tabulate all muscles, solve all cases into a store.
 
-    Raises NotConvergedError where a state fails, after all others are solved and kept.
+    Raises NotConvergedError where a state or a case fails, after all other states are solved and kept.
     """
     spec = TableSpec(most_states=size.states, held_out=0)
     with steps.bars("finite elements", dict.fromkeys(arm.muscles, spec.most)) as advance:
         tables = tabulate(arm, preset, spec, out / "tables", advance)
     for table in tables.values():
         table.require_complete()
-    table_arm = TableArm(arm, tables)
-    designs = {"factorial": factorial_cases(), "off_grid": off_grid_cases(size.off_grid, SEED)}
-    cases = [(design, case) for design, chosen in designs.items() for case in chosen]
-    solutions = []
-    with steps.bars("equilibrium", {"cases": len(cases)}) as advance:
-        for _, case in cases:
-            solutions.append(table_arm(case))
-            advance("cases")
-    provenance = {
-        "simulator": "table",
-        "preset": preset,
-        "arm_checksum": arm_checksum(arm),
-        "myograph_version": myograph.__version__,
-    }
-    table = tables[MUSCLE]
-    words = [design for design, _ in cases]
-    dataset = dataset_from_solutions(solutions, words, MUSCLE, (table.reference, table.skin), provenance)
-    save_dataset(dataset, out / "dataset.zarr")
-    return Simulation(arm, tables, tuple(solutions), dataset)
+    simulator = TableArm(arm, tables)
+    rest, active = (simulator(Case((level,) * len(tables))) for level in (0.0, 1.0))
+    design = _design(size)
+    named = SimulatorSpec("table", preset, arm.model_dump_json(), str(out / "tables"))
+    with steps.bars("equilibrium", {"cases": len(design.cases)}) as advance:
+
+        def write(store: Path) -> None:
+            plan, bodies = plan_store(design, named, [MUSCLE])
+            make_store(store, plan, bodies, {"myograph_version": myograph.__version__})
+            compute_here(store, simulator, lambda: advance("cases"))
+            for reason in reasons(store).values():
+                raise NotConvergedError(reason)
+
+        write_whole_folder(out / STORE, write)
+    return Simulation(arm, preset, tables, rest, active, out / STORE, read_muscle(out / STORE, MUSCLE))
+
+
+def _design(size: DemoSize) -> Design:
+    corners, others = factorial_cases(), off_grid_cases(size.off_grid, SEED)
+    return Design((*corners, *others), ("factorial",) * len(corners) + ("off_grid",) * len(others))

@@ -17,13 +17,13 @@ from myograph.cli.options import ArmFile, Json, Preset, print_json, read_arm
 from myograph.cli.progress import Steps
 from myograph.errors import InputError, MissingPackageError
 
-_NEEDED = ("ngsolve", "torch", "tensorboard", "matplotlib")
+_NEEDED = ("ngsolve", "torch", "tensorboard", "onnxscript", "matplotlib")
 _VERSIONS = ("myograph", "ngsolve", "torch", "numpy", "scipy")
 
 
 def demo(
     preset: Preset = "quick",
-    out: Annotated[Path, typer.Option(help="Folder for the report, the dataset, the tables and the models.")] = Path(
+    out: Annotated[Path, typer.Option(help="Folder for the report, the ensemble, the tables and the models.")] = Path(
         "myograph-demo"
     ),
     arm_file: ArmFile = None,
@@ -31,7 +31,7 @@ def demo(
 ) -> None:
     """Simulate the arm, teach the networks, and write a report: the main job, from nothing.
 
-    Tables that lie ready in the folder, made for the same arm and preset, are used again.
+    Tables and trainings that lie ready in the folder, made for the same arm and preset, are used again.
     """
     result = run_demo(read_arm(arm_file), preset, out, Steps())
     if json:
@@ -54,20 +54,21 @@ def run_demo(arm: Arm, preset: str, out: Path, steps: Steps) -> dict[str, Any]:
     size = demo_size(preset)
     _check_installed()
     _check_writable(out)
-    from myograph.cli.demo.networks import compare, learn
+    from myograph.cli.demo.networks import compare, learn, save
     from myograph.cli.demo.report import write_demo_report
     from myograph.cli.demo.simulation import simulate
 
     simulation = simulate(arm, preset, size, out, steps)
     simulated = time.perf_counter() - started
-    networks = learn(simulation.dataset, size, out, steps)
-    comparison = compare(simulation.dataset, networks, steps)
+    comparison = compare(simulation.cases, learn(simulation.store, size, out, steps), steps)
+    command = shlex.join(["myograph", *sys.argv[1:]])
+    save(comparison, out, command, steps)
     provenance = {
-        "command": shlex.join(["myograph", *sys.argv[1:]]),
+        "command": command,
         "seed": str(SEED),
         "sensors": str(SENSORS),
         "arm": arm_checksum(arm),
-        "dataset": comparison.sampler.source.checksum,
+        "dataset": simulation.cases.checksum,
         "versions": ", ".join(f"{name} {version(name)}" for name in _VERSIONS),
     }
     report = write_demo_report(simulation, comparison, steps, provenance, out / "report.html")
@@ -78,8 +79,8 @@ def run_demo(arm: Arm, preset: str, out: Path, steps: Steps) -> dict[str, Any]:
             "train": round(steps.seconds["training"], 2),
             "total": round(time.perf_counter() - started, 2),
         },
-        "nodes": int(simulation.dataset.sizes["nodes"]),
-        "cases": int(simulation.dataset.sizes["cases"]),
+        "nodes": simulation.cases.nodes,
+        "cases": len(simulation.cases),
         "methods": {
             method: {
                 protocol: {key: getattr(e, key) for key in ("mean_mm", "rmse_mm", "p95_mm", "max_mm")}

@@ -12,9 +12,11 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextCol
 from rich.progress import TimeRemainingColumn as TimeLeft
 from rich.text import Text
 
+from myograph.cli.dataset.pictures import draw_card_figure
 from myograph.cli.options import print_json
+from myograph.ensemble.card.text import FIGURE
 from myograph.ensemble.store.plan import read_plan
-from myograph.errors import MissingPackageError
+from myograph.errors import InputError, MissingPackageError
 
 if TYPE_CHECKING:
     from myograph.ensemble.running.run import Listener
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 Workers = Annotated[int | None, typer.Option(help="Local processes; without it one for each processor.")]
 Scheduler = Annotated[str | None, typer.Option(help="Address of a Dask scheduler that runs already.")]
 Slurm = Annotated[Path | None, typer.Option(help="TOML file: run as jobs of SLURM.")]
+Again = Annotated[bool, typer.Option("--retry-failed", help="Try the cases again that failed in an earlier run.")]
 TimeLimit = Annotated[float | None, typer.Option(help="Seconds after which a case has failed.")]
 
 
@@ -33,17 +36,29 @@ class Where:
     scheduler: str | None
     slurm: Path | None
     time_limit: float | None
+    again: bool = False
 
 
 def compute(store: Path, where: Where) -> dict[str, Any]:
-    """Compute what is missing and show progress; what `run_store` returns."""
+    """Compute what is missing, show progress, and draw the card's figure; what `run_store` returns."""
     try:
         from myograph.ensemble.running.run import RunOptions, run_store
     except ModuleNotFoundError as missing:
         raise MissingPackageError(str(missing.name), "simulate", "running an ensemble") from None
-    options = RunOptions(where.workers, where.scheduler, where.slurm, where.time_limit)
+    options = RunOptions(where.workers, where.scheduler, where.slurm, where.time_limit, again=where.again)
     with _shown(read_plan(store).size) as listener:
-        return run_store(store, options, listener)
+        result = run_store(store, options, listener)
+    if not (store / FIGURE).exists():
+        _draw(store)
+    return result
+
+
+def _draw(store: Path) -> None:
+    """Draw the card's figure; what cannot be drawn is no reason to call the run a failure."""
+    try:
+        draw_card_figure(store)
+    except InputError as problem:
+        typer.echo(f"myograph: no figure for the card: {problem}", err=True)
 
 
 def tell(result: dict[str, Any], json: bool) -> None:

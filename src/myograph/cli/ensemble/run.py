@@ -10,7 +10,7 @@ import typer
 
 import myograph
 from myograph.cli.ensemble.asked import Angle, Count, DesignMethod, File, Level, Load, Seed, Step, asked_design
-from myograph.cli.ensemble.compute import Scheduler, Slurm, TimeLimit, Where, Workers, compute, tell
+from myograph.cli.ensemble.compute import Again, Scheduler, Slurm, TimeLimit, Where, Workers, compute, tell
 from myograph.cli.ensemble.tables import tables_ready
 from myograph.cli.options import ArmFile, Json, read_arm
 from myograph.config import parse
@@ -36,12 +36,16 @@ def run(
     simulator: Annotated[str | None, typer.Option(help="table, direct, or package.module:function.")] = None,
     preset: Annotated[str | None, typer.Option(help="Size: tiny, quick or thesis.")] = None,
     muscle: Annotated[list[str] | None, typer.Option(help="Store only this muscle; several times for more.")] = None,
-    tables: Annotated[Path | None, typer.Option(help="Folder of the arm's tables; built there if missing.")] = None,
+    tables: Annotated[
+        Path | None,
+        typer.Option(help="Folder of the arm's tables: built there if missing; for 'direct' where its searches begin."),
+    ] = None,
     arm_file: ArmFile = None,
     workers: Workers = None,
     scheduler: Scheduler = None,
     slurm: Slurm = None,
     time_limit: TimeLimit = None,
+    retry_failed: Again = False,
     json: Json = False,
 ) -> None:
     """Compute all cases of a design; run it again to go on after an interrupt.
@@ -59,7 +63,7 @@ def run(
     asked = read_config(config) if config else parse(given, EnsembleConfig, "ensemble")
     _make(asked, tables or asked.tables, out)
     limit = time_limit if time_limit is not None else asked.run.time_limit_s
-    tell(compute(out, Where(workers or asked.run.workers, scheduler, slurm, limit)), json)
+    tell(compute(out, Where(workers or asked.run.workers, scheduler, slurm, limit, retry_failed)), json)
 
 
 def resume(
@@ -68,20 +72,22 @@ def resume(
     scheduler: Scheduler = None,
     slurm: Slurm = None,
     time_limit: TimeLimit = None,
+    retry_failed: Again = False,
     json: Json = False,
 ) -> None:
     """Compute what is missing in a store."""
     read_plan(store)
-    tell(compute(store, Where(workers, scheduler, slurm, time_limit)), json)
+    tell(compute(store, Where(workers, scheduler, slurm, time_limit, retry_failed)), json)
 
 
 def _make(asked: EnsembleConfig, tables: Path | None, out: Path) -> None:
     """The store, and before that the tables, if the simulator needs them."""
     design, arm = make_design(asked.design), read_arm(asked.arm)
-    folder = tables or out.with_name(f"tables-{asked.preset}")
+    folder = tables
     if asked.simulator == "table":
+        folder = tables or out.with_name(f"tables-{asked.preset}")
         tables_ready(arm, asked.preset, folder)
-    else:
+    elif asked.simulator != "direct":
         folder = None
     place = None if folder is None else str(folder.resolve())
     spec = SimulatorSpec(asked.simulator, asked.preset, arm.model_dump_json(), place, asked.gravity)

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from myograph.ensemble.card.text import FIGURE
+from myograph.ensemble.card.writing import CARD, add_cost, write_card
 from myograph.ensemble.running.batch import Task
 from myograph.ensemble.running.chains import batches
 from myograph.ensemble.running.cluster import connected
@@ -15,6 +17,7 @@ from myograph.ensemble.running.plugin import SolverPlugin
 from myograph.ensemble.store.aside import sweep
 from myograph.ensemble.store.lock import locked
 from myograph.ensemble.store.plan import StorePlan, read_plan
+from myograph.ensemble.store.repairing import forget_case
 from myograph.ensemble.store.rows import states
 from myograph.ensemble.store.summary import write_summary
 from myograph.errors import InputError
@@ -40,6 +43,8 @@ class RunOptions:
         A case that takes longer [s] has failed.
     retries
         How often a case is tried again when its process is lost.
+    again
+        Whether cases that failed in an earlier run are tried again.
     """
 
     workers: int | None = None
@@ -47,6 +52,7 @@ class RunOptions:
     slurm: Path | None = None
     seconds: float | None = None
     retries: int = 3
+    again: bool = False
 
     def __post_init__(self) -> None:
         if self.workers is not None and self.workers < 1:
@@ -75,10 +81,14 @@ def run_store(store: Path, options: RunOptions, listener: Listener = Listener())
     plan = read_plan(store)
     with locked(store, sum(state is not None for state in states(store, plan.size))):
         sweep(store)
+        if options.again:
+            _forget_failed(store, plan)
         todo = missing(store, plan)
         if todo:
+            for name in (CARD, FIGURE):
+                (store / name).unlink(missing_ok=True)
             _run(store, plan, (options, listener), todo)
-        _sum_up(store, plan)
+        _sum_up(store, plan, time.perf_counter() - started if todo else 0.0)
     found = states(store, plan.size)
     return {
         "cases": plan.size,
@@ -87,6 +97,12 @@ def run_store(store: Path, options: RunOptions, listener: Listener = Listener())
         "seconds": time.perf_counter() - started,
         "store": str(store),
     }
+
+
+def _forget_failed(store: Path, plan: StorePlan) -> None:
+    for case, state in enumerate(states(store, plan.size)):
+        if state == "failed":
+            forget_case(store, plan, case)
 
 
 def missing(store: Path, plan: StorePlan) -> list[Batch]:
@@ -117,8 +133,13 @@ def _run(store: Path, plan: StorePlan, how: tuple[RunOptions, Listener], todo: l
     raise InputError(f"{store}: all workers were lost, {_CLUSTERS} times; run it again with fewer of them")
 
 
-def _sum_up(store: Path, plan: StorePlan) -> None:
+def _sum_up(store: Path, plan: StorePlan, seconds: float) -> None:
+    """Write what all cases have in common: their numbers, what they cost [s], and the card."""
     try:
         write_summary(store, plan)
+        if seconds:
+            add_cost(store, seconds)
+        if not (store / CARD).exists():
+            write_card(store)
     except OSError as problem:
         raise InputError(f"{store}: cannot be written ({problem.strerror}); free some room and run it again") from None

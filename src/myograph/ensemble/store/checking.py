@@ -8,12 +8,14 @@ from pathlib import Path
 import numpy as np
 import zarr
 
-from myograph.ensemble.node_fields import NODE_FIELDS
 from myograph.ensemble.store.checksum import checksum
 from myograph.ensemble.store.chunks import chunk_path, decode
 from myograph.ensemble.store.plan import StorePlan
 from myograph.ensemble.store.rows import read_row
 from myograph.errors import InputError
+
+UNCOUNTED = ("provenance.json", "card.md", "card.png")
+"""Files that say who computed a store, when and at what cost: not part of its checksum."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,7 @@ def _case(store: Path, plan: StorePlan, case: int) -> str:
         return "has not been computed yet"
     if row.state == "failed":
         return ""
-    expected = {f"{muscle}/{field}" for muscle in plan.muscles for field in NODE_FIELDS}
+    expected = {f"{muscle}/{field}" for muscle in plan.muscles for field in plan.fields}
     if set(row.chunks) != expected or not np.isfinite([row.elbow_angle or 0.0, *row.moments.values()]).all():
         return "its row does not fit this store"
     for name, found in row.chunks.items():
@@ -99,11 +101,11 @@ def _chunk(store: Path, plan: StorePlan, name: str, case: int, expected: str) ->
 
 
 def store_checksum(store: Path) -> str:
-    """One checksum of all that is computed: every file but those that say who computed it, and when."""
+    """One checksum of all that is computed: every file but those of `UNCOUNTED`."""
     digest = hashlib.blake2b(digest_size=16)
     for path in sorted(path for path in store.rglob("*") if path.is_file()):
         name = path.relative_to(store).as_posix()
-        if name.startswith(".") or name == "provenance.json":
+        if name.startswith(".") or name in UNCOUNTED:
             continue
         digest.update(f"{name} {checksum(path.read_bytes())}\n".encode())
     return digest.hexdigest()

@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import zarr
+from jaxtyping import Int
 
 from myograph.ensemble.design.cases import Design
-from myograph.ensemble.node_fields import NODE_FIELDS
+from myograph.ensemble.pairs.sampler import SENSORS, random_sensors
 from myograph.ensemble.simulators import describe_simulator, make_bodies
 from myograph.ensemble.spec import Body, SimulatorSpec
 from myograph.ensemble.store.arrays import add_field
@@ -22,7 +23,6 @@ from myograph.ensemble.store.rows import ROWS
 from myograph.errors import InputError
 
 PROVENANCE = "provenance.json"
-SENSORS, SENSOR_SEED = 9, 0
 
 
 def plan_store(design: Design, simulator: SimulatorSpec, muscles: Sequence[str]) -> tuple[StorePlan, dict[str, Body]]:
@@ -81,7 +81,7 @@ def write_still(folder: Path, plan: StorePlan, bodies: Mapping[str, Body]) -> No
         described = {"muscle": muscle, "simulator": plan.simulator.kind, "preset": plan.simulator.preset}
         checked = {"arm_checksum": plan.described["arm_checksum"], "schema": SCHEMA}
         group = root.create_group(muscle, attributes={**described, **checked})
-        for field in NODE_FIELDS:
+        for field in plan.fields:
             add_field(group, field, plan.size, plan.nodes[muscle])
         body = bodies[muscle]
         _add(group, "reference_position", body.reference.astype("<f8"), ("nodes", "axes"), "mm")
@@ -90,10 +90,9 @@ def write_still(folder: Path, plan: StorePlan, bodies: Mapping[str, Body]) -> No
         _add(group, "sensor_nodes", sensor_nodes(plan.nodes[muscle]), ("sensors",), "1")
 
 
-def sensor_nodes(nodes: int) -> np.ndarray:
-    """The nodes of the standard sensors: `pairs.sample_pairs` draws the same with its own defaults."""
-    shuffled = np.random.default_rng(SENSOR_SEED).permutation(nodes)
-    return np.sort(shuffled[: min(SENSORS, nodes)]).astype("<i8")
+def sensor_nodes(nodes: int) -> Int[np.ndarray, " sensors"]:
+    """The nodes of the standard sensors; on a body of no more nodes than these, all of them but one."""
+    return random_sensors(nodes, min(SENSORS, nodes - 1)).astype("<i8")
 
 
 def _add(group: zarr.Group, name: str, values: np.ndarray, names: tuple[str, ...], unit: str) -> None:

@@ -1,8 +1,21 @@
 """A store as `xarray` datasets: read lazily, also while it is being written.
 
-`open_muscle` has the layout of `myograph.ensemble.dataset`, and besides `state`, `hand_load`, `prescribed_angle`,
-`moment`, `connectivity` (nodes of each element) and `sensor_nodes`.
-A case that failed, or has not been computed yet, is NaN in every field; `state` says which.
+`open_muscle` has these variables (units in their attributes, from `myograph.fields`):
+
+    activation, moment              (cases, muscles)      in the order of `myograph.MUSCLES`, the coordinate `muscles`
+    hand_load, prescribed_angle     (cases,)              N, rad; NaN where the arm finds its equilibrium
+    elbow_angle                     (cases,)              rad
+    design, state                   (cases,)              where the case comes from; 'done', 'failed' or 'missing'
+    position                        (cases, nodes, axes)  mm
+    cauchy_stress                   (cases, nodes, voigt) MPa
+    von_mises, pressure             (cases, nodes)        MPa
+    fibre_stretch                   (cases, nodes)
+    reference_position              (nodes, axes)         material coordinates X, mm
+    surface_quads, connectivity     node indices of the skin, outward normal, and of the elements
+    sensor_nodes                    the standard sensors
+
+A case that failed, or has not been computed yet, is NaN in every field. Learning reads a store by
+`myograph.ensemble.store.reading.read_muscle`.
 """
 
 import json
@@ -42,16 +55,16 @@ def open_muscle(store: Path, muscle: str) -> xr.Dataset:
 def open_cases(store: Path) -> xr.Dataset:
     """What is asked and what became of it, without fields; a damaged row counts as missing."""
     plan = read_plan(store)
-    dataset = cases_dataset(plan, [_row(store, case) for case in range(plan.size)])
+    dataset = cases_dataset(plan, [readable_row(store, case) for case in range(plan.size)])
     words = np.array(plan.design.words)
     named = np.array(STATES)[dataset["state"].values]
-    attributes = {"simulator": plan.simulator.kind, "identity": plan.identity, **_provenance(store)}
+    attributes = {"simulator": plan.simulator.kind, "identity": plan.identity, **provenance(store)}
     return dataset.assign(design=("cases", words), state=("cases", named)).assign_attrs(attributes)
 
 
 def reasons(store: Path) -> dict[int, str]:
     """The failed cases and why."""
-    rows = (_row(store, case) for case in range(read_plan(store).size))
+    rows = (readable_row(store, case) for case in range(read_plan(store).size))
     return {row.case: row.reason for row in rows if row is not None and row.state == "failed"}
 
 
@@ -89,14 +102,16 @@ def _coded(codes: list[int], meanings: tuple[str, ...]) -> xr.Variable:
     return xr.Variable(("cases",), np.array(codes, dtype="<i4"), attributes)
 
 
-def _row(store: Path, case: int) -> Row | None:
+def readable_row(store: Path, case: int) -> Row | None:
+    """The row of a case; None where it has none yet, or a damaged one."""
     try:
         return read_row(store, case)
     except InputError:
         return None
 
 
-def _provenance(store: Path) -> dict[str, str]:
+def provenance(store: Path) -> dict[str, str]:
+    """Who made the store: versions and command; empty where that cannot be read."""
     try:
         return {str(key): str(value) for key, value in json.loads((store / PROVENANCE).read_bytes()).items()}
     except (OSError, ValueError, AttributeError):

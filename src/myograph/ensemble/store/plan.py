@@ -8,6 +8,7 @@ from typing import Any
 
 from myograph.case import Case
 from myograph.ensemble.design.cases import Design
+from myograph.ensemble.node_fields import NODE_FIELDS
 from myograph.ensemble.spec import SimulatorSpec
 from myograph.ensemble.store.checksum import checksum
 from myograph.errors import InputError
@@ -35,6 +36,8 @@ class StorePlan:
         Number of nodes of each of them.
     still
         Path in the store -> checksum, of every file that never changes.
+    fields
+        Names of the fields that are stored of every muscle; an imported store may have fewer than a simulated one.
     """
 
     design: Design
@@ -43,6 +46,7 @@ class StorePlan:
     muscles: tuple[str, ...]
     nodes: Mapping[str, int]
     still: Mapping[str, str]
+    fields: tuple[str, ...] = NODE_FIELDS
 
     @property
     def size(self) -> int:
@@ -52,7 +56,8 @@ class StorePlan:
     @property
     def identity(self) -> str:
         """Checksum of what is asked; a store is continued only by a run that asks the same."""
-        return checksum(_text([SCHEMA, _cases(self.design), dict(self.described), self.muscles, dict(self.nodes)]))
+        asked = [SCHEMA, _cases(self.design), dict(self.described), self.muscles, dict(self.nodes)]
+        return checksum(_text(asked if self.fields == NODE_FIELDS else [*asked, self.fields]))
 
     def with_still(self, still: Mapping[str, str]) -> "StorePlan":
         """The plan with the checksums of the files that never change."""
@@ -68,6 +73,7 @@ def plan_bytes(plan: StorePlan) -> bytes:
         "described": dict(plan.described),
         "muscles": list(plan.muscles),
         "nodes": dict(plan.nodes),
+        "fields": list(plan.fields),
         "still": dict(sorted(plan.still.items())),
         "cases": _cases(plan.design),
     }
@@ -97,6 +103,7 @@ def read_plan(store: Path) -> StorePlan:
         tuple(body["muscles"]),
         body["nodes"],
         body["still"],
+        tuple(body.get("fields", NODE_FIELDS)),
     )
 
 

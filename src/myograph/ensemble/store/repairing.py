@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from myograph.ensemble.node_fields import NODE_FIELDS
 from myograph.ensemble.spec import Body
 from myograph.ensemble.store.aside import ASIDE, sweep
 from myograph.ensemble.store.checking import Problem
@@ -36,7 +35,7 @@ def forget_case(store: Path, plan: StorePlan, case: int) -> None:
     with suppress(FileNotFoundError):
         row_path(store, case).unlink()
     for muscle in plan.muscles:
-        for field in NODE_FIELDS:
+        for field in plan.fields:
             with suppress(FileNotFoundError):
                 chunk_path(store, muscle, field, case).unlink()
 

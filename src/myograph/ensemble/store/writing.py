@@ -1,17 +1,21 @@
 """The answer to a case goes to the store: its arrays first, then its row."""
 
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from myograph.case import Solution
-from myograph.ensemble.node_fields import NODE_FIELDS
 from myograph.ensemble.store.aside import place
 from myograph.ensemble.store.checksum import checksum
 from myograph.ensemble.store.chunks import chunk_path, encode
 from myograph.ensemble.store.plan import StorePlan
 from myograph.ensemble.store.rows import Row, write_failure, write_row
 from myograph.errors import InputError
+
+Fields = Mapping[str, Mapping[str, np.ndarray]]
+"""Muscle -> field -> values at its nodes."""
 
 
 def write_solution(store: Path, plan: StorePlan, case: int, solution: Solution) -> Row:
@@ -20,28 +24,37 @@ def write_solution(store: Path, plan: StorePlan, case: int, solution: Solution) 
         numbers = [solution.elbow_angle, *solution.moments.values()]
         if not np.isfinite(numbers).all():
             raise InputError(f"angle and moments: expected finite numbers, got {numbers}")
-        encoded = {f"{muscle}/{field}": _chunk(plan, solution, muscle, field) for muscle in plan.muscles
-                   for field in NODE_FIELDS}  # fmt: skip
+        encoded = _encoded(plan, solution.fields)
     except Exception as problem:
         return write_failure(store, case, problem)
+    moments = {name: float(moment) for name, moment in solution.moments.items()}
+    return _write(store, encoded, Row(case, "done", float(solution.elbow_angle), moments, solution.notes))
+
+
+def write_answer(store: Path, plan: StorePlan, case: int, fields: Fields, elbow_angle: float | None) -> Row:
+    """Store fields whose moments are not known, nor perhaps the angle; raises InputError where they do not fit."""
+    return _write(store, _encoded(plan, fields), Row(case, "done", elbow_angle))
+
+
+def _write(store: Path, encoded: Mapping[str, bytes], row: Row) -> Row:
+    """The chunks, then the row that vouches for them."""
     for name, data in encoded.items():
         muscle, field = name.split("/")
-        place(store, chunk_path(store, muscle, field, case), data)
-    row = Row(
-        case,
-        "done",
-        float(solution.elbow_angle),
-        {name: float(moment) for name, moment in solution.moments.items()},
-        solution.notes,
-        chunks={name: checksum(data) for name, data in encoded.items()},
-    )
+        place(store, chunk_path(store, muscle, field, row.case), data)
+    row = replace(row, chunks={name: checksum(data) for name, data in encoded.items()})
     write_row(store, row)
     return row
 
 
-def _chunk(plan: StorePlan, solution: Solution, muscle: str, field: str) -> bytes:
+def _encoded(plan: StorePlan, fields: Fields) -> dict[str, bytes]:
+    return {
+        f"{muscle}/{field}": _chunk(plan, fields, muscle, field) for muscle in plan.muscles for field in plan.fields
+    }
+
+
+def _chunk(plan: StorePlan, fields: Fields, muscle: str, field: str) -> bytes:
     try:
-        values = solution.fields[muscle][field]
+        values = fields[muscle][field]
     except KeyError:
         raise InputError(f"{muscle}: expected the field '{field}', got none") from None
     try:

@@ -4,7 +4,6 @@ import hashlib
 import json
 from importlib.metadata import PackageNotFoundError, version
 
-import myograph
 from myograph.anatomy.load import arm_checksum, muscle_checksum
 from myograph.anatomy.model import Arm
 from myograph.limb.tables.spec import BASIS, TableSpec
@@ -25,7 +24,7 @@ def provenance(arm: Arm, seconds: float) -> dict[str, str]:
     return {
         "arm": arm.name,
         "arm_checksum": arm_checksum(arm),
-        "myograph": myograph.__version__,
+        "myograph": version("myograph"),
         **{package: _version(package) for package in _PACKAGES},
         "basis": f"{BASIS.name}, degree {BASIS.degree}",
         "cpu_seconds": f"{seconds:.1f}",

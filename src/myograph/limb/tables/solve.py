@@ -13,7 +13,7 @@ from jaxtyping import Float, Int
 from myograph.anatomy.model import Arm
 from myograph.errors import InputError
 from myograph.limb.tables.state import FIELDS_IN_TABLE, State, StateStore, state_key
-from myograph.mesh.presets import muscle_mesh, resolution
+from myograph.mesh.presets import preset_mesh
 
 if TYPE_CHECKING:
     from myograph.mechanics.muscle import FailedState, MuscleState
@@ -30,7 +30,7 @@ class FiniteElementStates:
 
     def __init__(self, arm: Arm, name: str, preset: str, progress: Progress, folder: Path | None = None) -> None:
         self.arm, self.name, self.preset, self._progress = arm, name, preset, progress
-        self.mesh = muscle_mesh(arm, name, resolution(preset))
+        self.mesh = preset_mesh(arm, name, preset)
         self._kept: list[State] = []
         self._store = None if folder is None else StateStore(states_folder(folder, name), state_key(arm, name, preset))
 

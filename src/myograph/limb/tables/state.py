@@ -9,12 +9,12 @@ import json
 import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
-import myograph
 from myograph.anatomy.load import muscle_checksum
 from myograph.anatomy.model import Arm
 from myograph.files import write_whole
@@ -69,7 +69,7 @@ class State:
 
 def state_key(arm: Arm, name: str, preset: str) -> str:
     """Checksum of everything a state depends on, its place apart."""
-    text = json.dumps([FORMAT, myograph.__version__, muscle_checksum(arm, name), name, preset])
+    text = json.dumps([FORMAT, version("myograph"), muscle_checksum(arm, name), name, preset])
     return hashlib.sha256(text.encode()).hexdigest()
 
 

@@ -1,0 +1,101 @@
+"""What each switch of the graph element network is worth: mean error of a muscle's nodes, a row for each switch.
+
+    python benchmarks/gen_ladder.py --store DIR [--muscle biceps] [--rows NAME ...] [--protocol strict off_grid]
+        [--seeds 3] [--steps 300] [--batch 8] [--queries 64] [--nodes-per-axis 2] [--json]
+
+Every row is trained alike, from as many seeds; `traps` are rows of the thesis network with one mistake each.
+"""
+
+import argparse
+import json
+from pathlib import Path
+
+import numpy as np
+import torch
+from rich.console import Console
+from rich.table import Table
+
+from myograph.ensemble.pairs.predictor import Predictor
+from myograph.ensemble.pairs.protocols import Split, split_pairs
+from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
+from myograph.ensemble.store.reading import read_muscle
+from myograph.learning.gen.config import NetworkConfig, Traps
+from myograph.learning.gen.learner import GenLearner
+from myograph.learning.training import TrainingConfig
+
+TESTED = 300
+"""Test pairs at most, drawn at random."""
+THESIS = NetworkConfig.thesis()
+ROWS: dict[str, NetworkConfig] = {
+    "thesis": THESIS,
+    **{f"thesis, {trap}": THESIS.model_copy(update={"traps": Traps(**{trap: True})}) for trap in Traps.model_fields},
+    "thesis, mean": THESIS.model_copy(update={"aggregation": "mean"}),
+    "displacement": NetworkConfig(),
+    "direction and scale": NetworkConfig(inputs=(("direction_and_scale",),), outputs=(("direction_and_scale",),)),
+    "affine skip": NetworkConfig(skip="affine"),
+    "silu": NetworkConfig(nonlinearity="silu"),
+    "mlp": NetworkConfig(processor="mlp"),
+    "mpnn": NetworkConfig(processor="mpnn"),
+    "per-node sharpness": NetworkConfig(sharpness="per_node"),
+    "nearest": NetworkConfig(representer="nearest"),
+    "context": NetworkConfig(context=True),
+    "modulated": NetworkConfig(modulated=True),
+    "wide": NetworkConfig(latent=64, hidden=(64, 64)),
+    "activation": NetworkConfig(activation_input=True, reads="sensors_and_activation"),
+    "improved": NetworkConfig.improved(),
+}
+
+
+def main() -> None:
+    """Train, measure, print."""
+    asked = _arguments()
+    torch.set_num_threads(1)
+    cases = read_muscle(asked.store, asked.muscle)
+    sampler = PairSampler(cases, random_sensors(cases.nodes))
+    found: dict[str, dict[str, list[float]]] = {}
+    for name in asked.rows or ROWS:
+        network = ROWS[name].model_copy(update={"nodes_per_axis": asked.nodes_per_axis})
+        found[name] = {}
+        for protocol in asked.protocol:
+            split = split_pairs(cases, protocol)
+            trained = [GenLearner(network, _training(asked, seed)).fit(sampler, split) for seed in range(asked.seeds)]
+            found[name][protocol] = [mean_error(predictor, sampler, split) for predictor in trained]
+    print(json.dumps(found)) if asked.json else Console().print(_table(found, asked.protocol))
+
+
+def mean_error(predictor: Predictor, sampler: PairSampler, split: Split) -> float:
+    """Mean distance over test pairs and queries [mm]."""
+    count = min(TESTED, len(split.test))
+    pairs = split.test[np.random.default_rng(0).choice(len(split.test), count, replace=False)]
+    distances = [
+        np.linalg.norm(predictor.predict(batch.question).values["position"] - batch.truth["position"], axis=-1)
+        for batch in sampler.batches(pairs)
+    ]
+    return float(np.concatenate(distances).mean())
+
+
+def _training(asked: argparse.Namespace, seed: int) -> TrainingConfig:
+    return TrainingConfig(steps=asked.steps, batch=asked.batch, queries=asked.queries, seed=seed)
+
+
+def _table(found: dict[str, dict[str, list[float]]], protocols: list[str]) -> Table:
+    table = Table("network", *(f"{protocol} [mm]" for protocol in protocols))
+    for name, errors in found.items():
+        table.add_row(name, *(f"{np.mean(errors[p]):.2f} ± {np.std(errors[p]):.2f}" for p in protocols))
+    return table
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--store", type=Path, required=True)
+    parser.add_argument("--muscle", default="biceps")
+    parser.add_argument("--rows", nargs="+", choices=ROWS)
+    parser.add_argument("--protocol", nargs="+", default=["strict", "off_grid"])
+    for name, default in (("seeds", 3), ("steps", 300), ("batch", 8), ("queries", 64), ("nodes-per-axis", 2)):
+        parser.add_argument(f"--{name}", type=int, default=default)
+    parser.add_argument("--json", action="store_true")
+    return parser.parse_args()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,64 @@
+"""The steps of a training that need torch: it is imported here, when they are asked for."""
+
+import csv
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from myograph.cli.train.asked import TrainFile
+from myograph.cli.train.progress import shown
+from myograph.ensemble.pairs.predictor import Learner, Predictor
+from myograph.ensemble.pairs.protocols import Split
+from myograph.ensemble.pairs.sampler import PairSampler
+from myograph.errors import MissingPackageError
+
+if TYPE_CHECKING:
+    from myograph.learning.saving import Training
+
+TRAINING, MODEL = "training", "model"
+
+
+def asked_learner(asked: TrainFile, out: Path, source: str) -> Learner:
+    """The method with its settings; raises InputError for a wrong one, and where torch is not installed."""
+    try:
+        from myograph.learning.learners import Asked, make_learner
+    except ModuleNotFoundError as missing:
+        raise MissingPackageError(str(missing.name), "train", "training") from None
+    return make_learner(Asked(asked.method, asked.options, asked.training, out / TRAINING, source))
+
+
+def fit(learner: Learner, sampler: PairSampler, split: Split, out: Path) -> tuple[Predictor, float]:
+    """The trained method and the time that training took [s], over all interrupts."""
+    if not in_first_process():
+        return learner.fit(sampler, split), 0.0
+    started = time.perf_counter()
+    with shown(learner.name) as told:
+        predictor = learner.fit(sampler, split, told)
+    return predictor, max(time.perf_counter() - started, _seconds_in_course(out / TRAINING / "course.csv"))
+
+
+def in_first_process() -> bool:
+    """Whether this is the process that tells and writes."""
+    from myograph.learning.training.processes import rank
+
+    return rank() == 0
+
+
+def save(predictor: Predictor, training: "Training", folder: Path) -> Path | None:
+    """The folder of the saved model; None for a method that has none."""
+    from myograph.learning.saveable import Saveable
+    from myograph.learning.saving import save_model
+
+    if not isinstance(predictor, Saveable):
+        return None
+    save_model(predictor, training, folder)
+    return folder
+
+
+def _seconds_in_course(path: Path) -> float:
+    """When the last step ended [s]; 0 where nothing was trained in steps."""
+    if not path.is_file():
+        return 0.0
+    with path.open(encoding="utf-8", newline="") as file:
+        seconds = [float(row["seconds"]) for row in csv.DictReader(file)]
+    return seconds[-1] if seconds else 0.0

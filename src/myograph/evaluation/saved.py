@@ -1,0 +1,101 @@
+"""A saved model held against cases, by every protocol that is fair to it.
+
+A protocol is fair where its test pairs hold nothing that the model's training showed as a test would ask it: a model
+that learned by `thesis` or `off_grid` has seen every factorial case as a target, so `strict` would flatter it.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Int
+
+from myograph.ensemble.muscle_cases import MuscleCases
+from myograph.ensemble.pairs.protocols import OFF_GRID, PROTOCOLS, PairSet, Protocol, split_pairs
+from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
+from myograph.errors import InputError
+from myograph.evaluation.evaluate import evaluate
+from myograph.evaluation.summary import ErrorSummary
+from myograph.inference.feeds import FIELD_PARTS
+from myograph.inference.fitting import check_same_body
+from myograph.inference.latency import forward_milliseconds
+from myograph.inference.loaded import LoadedModel
+
+FAIR: dict[str, tuple[Protocol, ...]] = {
+    "thesis": ("thesis", "off_grid"),
+    "off_grid": ("thesis", "off_grid"),
+    "strict": PROTOCOLS,
+}
+"""Protocol of the training -> protocols of the test."""
+PAIRS, DRAW_SEED = 1024, 0
+
+
+@dataclass(frozen=True)
+class SavedEvaluation:
+    """What came of it.
+
+    Parameters
+    ----------
+    protocols
+        Errors by protocol.
+    pairs
+        Protocol -> number of pairs.
+    left_out
+        Protocol -> why it is not there.
+    latency_ms
+        One forward pass for all nodes [ms].
+    """
+
+    protocols: dict[str, ErrorSummary]
+    pairs: dict[str, int]
+    left_out: dict[str, str]
+    latency_ms: float
+
+
+def evaluate_saved(model: LoadedModel, cases: MuscleCases, most_pairs: int = PAIRS) -> SavedEvaluation:
+    """Errors on the test pairs of every fair protocol that the cases allow; of more pairs, that many at random.
+
+    Raises InputError for cases of another body or without the model's fields, and where no protocol is left.
+    """
+    check_same_body(model, cases)
+    sampler = _sampler(model, cases)
+    errors, pairs, left_out = {}, {}, {}
+    for protocol in PROTOCOLS:
+        if protocol not in FAIR.get(model.told.origin.protocol, PROTOCOLS):
+            left_out[protocol] = f"its cases taught this model (trained by '{model.told.origin.protocol}')"
+            continue
+        try:
+            chosen = _test_pairs(cases, protocol, model.told.origin.split_seed)
+        except InputError as problem:
+            left_out[protocol] = str(problem)
+            continue
+        chosen = _some(chosen, most_pairs)
+        errors[protocol], pairs[protocol] = evaluate(model, sampler.batches(chosen)).summary(), len(chosen)
+    if not errors:
+        raise InputError(f"{model.name}: expected cases for at least one protocol, got none: {left_out}")
+    return SavedEvaluation(errors, pairs, left_out, forward_milliseconds(model))
+
+
+def _sampler(model: LoadedModel, cases: MuscleCases) -> PairSampler:
+    signature = model.told.signature
+    told = {field for field in signature.rest_fields if any(p.format(field) in signature.inputs for p in FIELD_PARTS)}
+    asked = told | {field for field in ("position", "von_mises") if field in model.fields and field in cases.fields}
+    sensors = np.array(signature.sensors, dtype=np.int64) if signature.sensors else random_sensors(cases.nodes)
+    return PairSampler(cases, sensors, signature.convention, tuple(sorted(told)), tuple(sorted(asked)))
+
+
+def _test_pairs(cases: MuscleCases, protocol: Protocol, seed: int) -> Int[np.ndarray, "pairs 2"]:
+    """As `split_pairs`; cases off the grid need no factorial ones beside them to be tested on."""
+    if protocol != "off_grid":
+        return split_pairs(cases, protocol, seed).test
+    off_grid = cases.named(OFF_GRID)
+    if len(off_grid) < 2:
+        raise InputError(f"protocol 'off_grid': expected at least 2 cases of design 'off_grid', got {len(off_grid)}")
+    pairs = PairSet(off_grid, off_grid).all()
+    return pairs[pairs[:, 0] != pairs[:, 1]]
+
+
+def _some(pairs: Int[np.ndarray, "pairs 2"], most: int) -> Int[np.ndarray, "some 2"]:
+    if len(pairs) <= most:
+        return pairs
+    drawn = np.random.default_rng(DRAW_SEED).choice(len(pairs), most, replace=False)
+    return pairs[np.sort(drawn)]

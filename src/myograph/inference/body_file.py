@@ -1,0 +1,95 @@
+"""The body that a model knows, `body.npz`: plain arrays, never pickled.
+
+reference        nodes 3                material coordinates X [mm]
+skin, cells      facets 4, cells n      nodes of the surface's quadrilaterals and of the elements
+low, high        nodes 3                least and largest coordinates of each node in training [mm]
+rest_FIELD       nodes ...              the state of the training case with the least activation
+"""
+
+import io
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from myograph.ensemble.spec import Body
+from myograph.errors import InputError
+from myograph.fields import FIELDS
+from myograph.inference.arrays import read_arrays
+
+MOST_UNPACKED = 2**28
+_REST = "rest_"
+
+
+@dataclass(frozen=True)
+class ModelBody:
+    """The body and where it was in training; see the module's table."""
+
+    body: Body
+    low: Float[np.ndarray, "nodes 3"]
+    high: Float[np.ndarray, "nodes 3"]
+    rest: Mapping[str, Float[np.ndarray, "nodes ..."]]
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes."""
+        return len(self.body.reference)
+
+
+def body_bytes(body: ModelBody) -> bytes:
+    """The bytes of body.npz."""
+    arrays = {
+        "reference": body.body.reference.astype(np.float32),
+        "skin": body.body.skin.astype(np.int32),
+        "cells": body.body.cells.astype(np.int32),
+        "low": body.low.astype(np.float32),
+        "high": body.high.astype(np.float32),
+        **{_REST + name: values.astype(np.float32) for name, values in body.rest.items()},
+    }
+    file = io.BytesIO()
+    np.savez_compressed(file, allow_pickle=False, **arrays)
+    return file.getvalue()
+
+
+def body_of(data: bytes, source: str) -> ModelBody:
+    """The body; raises InputError for bytes that are no such arrays, or arrays that do not fit each other."""
+    found = read_arrays(data, source, MOST_UNPACKED)
+    _check(found, source)
+    rest = {name.removeprefix(_REST): values for name, values in found.items() if name.startswith(_REST)}
+    return ModelBody(Body(found["reference"], found["skin"], found["cells"]), found["low"], found["high"], rest)
+
+
+def _check(arrays: dict[str, np.ndarray], source: str) -> None:
+    nodes = len(arrays["reference"]) if arrays.get("reference") is not None and arrays["reference"].ndim else 0
+    shapes: dict[str, tuple[int | None, ...]] = {
+        **dict.fromkeys(("reference", "low", "high", _REST + "position"), (nodes, 3)),
+        "skin": (None, 4),
+        "cells": (None, None),
+    }
+    for name in arrays:
+        if name not in shapes:
+            shapes[name] = (nodes, *_components(name, source))
+    for name, shape in shapes.items():
+        kind = "i" if name in ("skin", "cells") else "f"
+        _check_array(arrays.get(name), shape, kind, f"{source}: {name}")
+    for name in ("skin", "cells"):
+        if arrays[name].size and not 0 <= arrays[name].min() <= arrays[name].max() < nodes:
+            raise InputError(f"{source}: {name}: expected nodes from 0 to {nodes - 1}, got others")
+
+
+def _components(name: str, source: str) -> tuple[int, ...]:
+    field = FIELDS.get(name.removeprefix(_REST)) if name.startswith(_REST) else None
+    if field is None:
+        raise InputError(f"{source}: unknown array '{name}'")
+    return (len(field.components),) if field.components else ()
+
+
+def _check_array(array: np.ndarray | None, shape: tuple[int | None, ...], kind: str, source: str) -> None:
+    if array is None:
+        raise InputError(f"{source}: expected an array, found none")
+    fits = array.ndim == len(shape) and all(want in (None, got) for want, got in zip(shape, array.shape, strict=True))
+    if not fits or array.dtype.kind != kind:
+        raise InputError(f"{source}: expected shape {shape} of kind '{kind}', got {array.shape} of {array.dtype}")
+    if not np.isfinite(array).all():
+        raise InputError(f"{source}: expected finite numbers, got NaN or infinity")

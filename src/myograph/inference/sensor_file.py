@@ -1,0 +1,52 @@
+"""Measured sensors from a CSV file, a row for each.
+
+Columns: `node`, or its place in the reference body `place_x_mm place_y_mm place_z_mm`; and where it is now, `x_mm y_mm
+z_mm`.
+"""
+
+import csv
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float, Shaped
+
+from myograph.errors import InputError
+
+NODE, PLACE, NOW = ("node",), ("place_x_mm", "place_y_mm", "place_z_mm"), ("x_mm", "y_mm", "z_mm")
+
+
+def read_sensors(path: Path) -> tuple[Shaped[np.ndarray, "sensors ..."], Float[np.ndarray, "sensors 3"]]:
+    """Nodes, or places in the reference body [mm], and positions [mm]; raises InputError with file and line."""
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            reader = csv.DictReader(file)
+            named = _named_by(path, list(reader.fieldnames or []))
+            rows = [_row(f"{path}, line {reader.line_num}", row, named) for row in reader]
+    except (OSError, UnicodeDecodeError, csv.Error) as problem:
+        raise InputError(f"{path}: not a readable CSV file: {problem}") from None
+    if not rows:
+        raise InputError(f"{path}: expected at least one sensor, got none")
+    numbers = np.array(rows)
+    where, now = numbers[:, : len(named)], numbers[:, len(named) :]
+    return (where[:, 0].astype(np.int64) if named == NODE else where), now
+
+
+def _named_by(path: Path, columns: list[str]) -> tuple[str, ...]:
+    for named in (NODE, PLACE):
+        if sorted(columns) == sorted((*named, *NOW)):
+            return named
+    wanted = " or ".join(", ".join((*named, *NOW)) for named in (NODE, PLACE))
+    raise InputError(f"{path}: expected the columns {wanted}, each once, got {', '.join(columns) or 'none'}")
+
+
+def _row(place: str, row: Mapping[str, str | None], named: tuple[str, ...]) -> list[float]:
+    try:
+        numbers = [float(row[name] or "") for name in (*named, *NOW)]
+    except (ValueError, TypeError) as problem:
+        raise InputError(f"{place}: expected a number in every column: {problem}") from None
+    if not np.isfinite(numbers).all():
+        raise InputError(f"{place}: expected finite numbers, got {numbers}")
+    if named == NODE and numbers[0] != int(numbers[0]):
+        raise InputError(f"{place}: expected the number of a node, got {numbers[0]}")
+    return numbers

@@ -1,0 +1,87 @@
+"""Some cases of one muscle as one small file of plain arrays: the truth that shipped models are held against.
+
+muscle, arm_checksum, preset, simulator      words; `schema` a number
+activation, hand_load, elbow_angle, design   of every case [-], [N], [rad], word
+reference, skin, cells                       the body, as in `myograph.inference.body_file`
+field_FIELD                                  cases nodes ..., float32
+"""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Int
+
+from myograph.case import check_muscle
+from myograph.ensemble.muscle_cases import MuscleCases, cases_in_memory
+from myograph.ensemble.spec import Body
+from myograph.errors import InputError
+from myograph.fields import FIELDS
+from myograph.files import write_whole
+from myograph.inference.arrays import read_arrays
+
+SCHEMA = 1
+MOST_BYTES = 2**28
+_WORDS, _FIELD = ("arm_checksum", "preset", "simulator"), "field_"
+_NEEDED = (
+    "schema",
+    "muscle",
+    *_WORDS,
+    "activation",
+    "hand_load",
+    "elbow_angle",
+    "design",
+    "reference",
+    "skin",
+    "cells",
+)
+
+
+def write_truth(path: Path, cases: MuscleCases, numbers: Int[np.ndarray, " some"], fields: tuple[str, ...]) -> None:
+    """Write some cases and some of their fields."""
+    arrays = {
+        "schema": np.array(SCHEMA),
+        "muscle": np.array(cases.muscle),
+        **{word: np.array(cases.attributes.get(word, "")) for word in _WORDS},
+        "activation": cases.activation[numbers],
+        "hand_load": cases.hand_load[numbers],
+        "elbow_angle": cases.elbow_angle[numbers],
+        "design": np.array([cases.design[number] for number in numbers.tolist()]),
+        "reference": cases.body.reference.astype(np.float32),
+        "skin": cases.body.skin.astype(np.int32),
+        "cells": cases.body.cells.astype(np.int32),
+        **{_FIELD + name: cases.values(name, numbers).astype(np.float32) for name in fields},
+    }
+    write_whole(path, lambda file: np.savez_compressed(file, allow_pickle=False, **arrays))
+
+
+def read_truth(path: Path) -> MuscleCases:
+    """The cases; raises InputError for a file that is missing, damaged, of another schema, or does not fit itself."""
+    try:
+        data = path.read_bytes() if path.stat().st_size <= MOST_BYTES else b""
+    except OSError as problem:
+        raise InputError(f"{path}: cannot be read: {problem.strerror}") from None
+    arrays = read_arrays(data, str(path), MOST_BYTES)
+    missing = [name for name in _NEEDED if name not in arrays]
+    if missing:
+        raise InputError(f"{path}: expected the arrays {', '.join(_NEEDED)}, found no {', '.join(missing)}")
+    if arrays["schema"].tolist() != SCHEMA:
+        raise InputError(f"{path}: expected schema {SCHEMA}, got {arrays['schema'].tolist()}; make it anew")
+    fields = {name.removeprefix(_FIELD): values for name, values in arrays.items() if name.startswith(_FIELD)}
+    foreign = [name for name in fields if name not in FIELDS]
+    if foreign:
+        raise InputError(f"{path}: unknown fields {', '.join(foreign)}")
+    return _cases(arrays, fields)
+
+
+def _cases(arrays: dict[str, np.ndarray], fields: dict[str, np.ndarray]) -> MuscleCases:
+    cases = cases_in_memory(
+        check_muscle(str(arrays["muscle"])),
+        Body(arrays["reference"], arrays["skin"], arrays["cells"]),
+        arrays["activation"],
+        [str(word) for word in arrays["design"]],
+        fields,
+        arrays["elbow_angle"],
+    )
+    words = {word: str(arrays[word]) for word in _WORDS}
+    return replace(cases, hand_load=arrays["hand_load"], attributes=words)

@@ -1,0 +1,48 @@
+"""Whether what is asked lies within what a model was trained on.
+
+from activations   each within the least and the largest of training, the load too
+from sensors       each target position within its node's box of training, widened by a tenth of its diagonal
+both               the sensors' residual at most the one of calibration, where the model gives one
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+from jaxtyping import Bool
+
+from myograph.ensemble.pairs.question import Question
+from myograph.inference.body_file import ModelBody
+from myograph.inference.model_file import TrainedRange
+from myograph.inference.signature import RESIDUAL, Signature
+
+WIDENED = 0.1
+"""Share of a box's diagonal by which it is widened: the next case of the same kind may lie a little beyond."""
+ROUNDING = 1e-6
+"""What single precision makes of 1, twenty times over."""
+
+
+def inside(
+    question: Question,
+    outputs: Mapping[str, np.ndarray],
+    model: tuple[Signature, TrainedRange, ModelBody],
+) -> Bool[np.ndarray, " batch"]:
+    """The verdict on each pair."""
+    signature, trained, body = model
+    verdict = np.ones(question.size, dtype=bool)
+    if "activation" in signature.inputs:
+        told = ~np.isnan(question.activation).all(axis=1)
+        within = _within(question.activation, trained.activation_low, trained.activation_high, ROUNDING).all(axis=1)
+        verdict &= within | ~told
+        load = np.array(trained.hand_load)
+        verdict &= _within(question.hand_load, load[0], load[1], ROUNDING * max(1.0, float(abs(load).max())))
+    if signature.takes_sensors and len(question.sensor_nodes):
+        low, high = body.low[question.sensor_nodes], body.high[question.sensor_nodes]
+        slack = WIDENED * np.linalg.norm(high - low, axis=-1, keepdims=True)
+        verdict &= _within(question.sensor_target["position"], low, high, slack).all(axis=(1, 2))
+    if RESIDUAL in outputs and trained.residual_mm is not None:
+        verdict &= outputs[RESIDUAL] <= trained.residual_mm
+    return verdict
+
+
+def _within(values: np.ndarray, low: object, high: object, slack: object) -> np.ndarray:
+    return (values >= np.asarray(low) - np.asarray(slack)) & (values <= np.asarray(high) + np.asarray(slack))

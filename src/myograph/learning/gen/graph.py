@@ -1,0 +1,97 @@
+"""The graph in torch: edges, adjacency and simplices of nodes where they are now; built anew after they move.
+
+Trap: a sparse product cannot be exported; while torch traces, the dense adjacency takes its place.
+"""
+
+import dataclasses
+import warnings
+from typing import Any
+
+import numpy as np
+import torch
+from jaxtyping import Float, Int
+from scipy.sparse import csr_array
+from scipy.spatial import Delaunay
+from torch import Tensor
+
+from myograph.learning.gen.mesh import edges_of, normalised_adjacency, triangulate
+
+
+class _SymmetricProduct(torch.autograd.Function):
+    """A x for a fixed symmetric sparse A. Its derivative is A again, which spares torch the transposition."""
+
+    @staticmethod
+    def forward(ctx: Any, matrix: Tensor, x: Tensor) -> Tensor:
+        ctx.matrix = matrix
+        return matrix @ x
+
+    @staticmethod
+    def backward(ctx: Any, *gradients: Tensor) -> tuple[None, Tensor]:
+        return None, ctx.matrix @ gradients[0]
+
+
+@dataclasses.dataclass(frozen=True)
+class Graph:
+    """Fixed neighbourhood of the nodes.
+
+    Parameters
+    ----------
+    edges
+        Sender and receiver; every edge stands both ways.
+    sparse, dense
+        Normalised adjacency with self loops.
+    neighbours
+        Number of each node's neighbours.
+    triangulation
+        Of the nodes.
+    """
+
+    edges: Int[Tensor, "2 edges"]
+    sparse: Tensor
+    dense: Float[Tensor, "nodes nodes"]
+    neighbours: Float[Tensor, " nodes"]
+    triangulation: Delaunay
+
+    def __deepcopy__(self, _: Any) -> "Graph":
+        """Itself: nothing in it ever changes, and torch cannot copy sparse matrices."""
+        return self
+
+    def on(self, device: torch.device) -> "Graph":
+        """The graph on this device."""
+        if self.dense.device == device:
+            return self
+        edges, sparse = self.edges.to(device), self.sparse.to(device)
+        return Graph(edges, sparse, self.dense.to(device), self.neighbours.to(device), self.triangulation)
+
+    def smooth(self, x: Float[Tensor, "nodes ..."]) -> Float[Tensor, "nodes ..."]:
+        """Product of the adjacency and x; differentiable in x."""
+        flat = x.flatten(1)
+        if torch.compiler.is_compiling():
+            return (self.dense @ flat).view_as(x)
+        return _SymmetricProduct.apply(self.sparse, flat).view_as(x)  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def graph_of(nodes: Float[np.ndarray, "nodes axes"], corners: int | None = None) -> Graph:
+    """The graph of the nodes; raises InputError where they span no volume.
+
+    Parameters
+    ----------
+    corners
+        Only so many corners of each simplex are joined: 3 is a trap.
+    """
+    triangulation = triangulate(nodes)
+    edges = edges_of(triangulation, corners)
+    both_ways = np.concatenate([edges, edges[:, ::-1]]).T
+    adjacency = normalised_adjacency(edges, len(nodes))
+    dense = torch.tensor(adjacency.toarray(), dtype=torch.float32)
+    neighbours = torch.tensor(np.bincount(edges.ravel(), minlength=len(nodes)).clip(1), dtype=torch.float32)
+    return Graph(torch.tensor(both_ways.copy()), sparse_matrix(adjacency), dense, neighbours, triangulation)
+
+
+def sparse_matrix(matrix: csr_array) -> Tensor:
+    """The sparse matrix in torch's own format, float32."""
+    values = torch.tensor(matrix.data, dtype=torch.float32)
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Sparse")
+        rows, columns = torch.tensor(matrix.indptr), torch.tensor(matrix.indices)
+        return torch.sparse_csr_tensor(rows, columns, values, matrix.shape, check_invariants=True)

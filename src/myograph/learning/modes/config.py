@@ -1,0 +1,85 @@
+"""What neural modes are told before they have seen data, and what their module is made of afterwards."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from myograph.config import Model
+from myograph.learning.modes.marquardt import Course
+
+Reads = Literal["activation", "sensors", "both"]
+
+
+class ModesConfig(Model):
+    """Settings of the method.
+
+    Parameters
+    ----------
+    reads
+        What answers are made from. A model that reads 'both' also answers from activations alone, when it is given no
+        sensors, and from sensors alone, when its activations are NaN.
+    coordinate
+        First of the two numbers that say what the muscle does: the elbow's 'angle', or, where the cases do not tell
+        it, the amount of the leading 'mode' of the positions.
+    modes
+        Of each field, at most.
+    width, members, steps, decay
+        The networks from activations to the coordinate: units of each hidden layer, their number, Levenberg-Marquardt
+        steps at most, and the weight of the squared parameters.
+    sensing
+        What sensors decide: the place on the 'surface' of all shapes that were seen; the amounts of all modes, by
+        'ridge' least squares; or 'surface_and_ridge', the place, and the modes as far as it leaves something open.
+    sensor_noise
+        Standard deviation of a measured coordinate [mm]: how far sensors are followed against activations.
+    activation_noise
+        Likewise of activations [-].
+    seed
+        Of the networks' first weights.
+    """
+
+    reads: Reads = "activation"
+    coordinate: Literal["angle", "mode"] = "angle"
+    modes: int = Field(default=32, ge=1)
+    width: int = Field(default=20, ge=1)
+    members: int = Field(default=3, ge=1)
+    steps: int = Field(default=100, ge=1)
+    decay: float = Field(default=1e-7, ge=0)
+    sensing: Literal["surface", "ridge", "surface_and_ridge"] = "surface"
+    sensor_noise: float = Field(default=0.1, gt=0)
+    activation_noise: float = Field(default=0.01, gt=0)
+    seed: int = Field(default=0, ge=0)
+
+    @property
+    def course(self) -> Course:
+        """Of each network's fit."""
+        return Course(self.width, self.steps, self.decay)
+
+
+class FieldShape(Model):
+    """The modes of one field: numbers of components and modes, degrees along (x, u)."""
+
+    name: str
+    components: int = Field(ge=1)
+    modes: int = Field(ge=1)
+    degrees: tuple[int, int]
+
+
+class BuiltModes(Model):
+    """All that the module needs to be built anew, its numbers aside.
+
+    Parameters
+    ----------
+    settings
+        What it was fitted with.
+    own
+        Index of the muscle in `myograph.MUSCLES`.
+    nodes
+        Of the body.
+    fields
+        Positions first.
+    """
+
+    settings: ModesConfig
+    own: int = Field(ge=0)
+    nodes: int = Field(ge=1)
+    fields: tuple[FieldShape, ...]

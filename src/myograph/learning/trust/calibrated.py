@@ -1,0 +1,166 @@
+"""Any method with 90 % intervals and a verdict: a share of the training cases is held out from it to calibrate both.
+
+Cases of the design 'support' are held out where there are enough of them, for these lie within what was trained on; the
+factorial corners, at the edge of it, else.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from myograph.ensemble.muscle_cases import MuscleCases
+from myograph.ensemble.pairs.predictor import Learner, Predictor, Progress
+from myograph.ensemble.pairs.protocols import SUPPORT, PairSet, Split
+from myograph.ensemble.pairs.question import Answer, Question
+from myograph.ensemble.pairs.sampler import PairSampler
+from myograph.errors import InputError
+from myograph.fields import FIELDS
+from myograph.inference.signature import RESIDUAL
+from myograph.learning.torch_predictor import TorchPredictor
+from myograph.learning.trust.conformal import conformal_factor
+from myograph.learning.trust.nearness import Nearness, nearness
+
+BATCH = 32
+RESIDUAL_LEVEL = 0.99
+"""Share of the calibration cases whose sensor residual is inside."""
+CONSERVATIVE = 1.5
+"""How far beyond that residual is still inside."""
+
+
+@dataclass(frozen=True)
+class CalibratedPredictor:
+    """A predictor with `half_width_90` and `inside`.
+
+    Parameters
+    ----------
+    factors
+        Field -> half width over deviation, or, where the method knows no deviation, half width in the field's unit:
+        what `myograph.learning.saving.Training.half_width_90` wants.
+    residual_mm
+        Largest residual of the sensors that is inside; None where the method gives none.
+    """
+
+    predictor: Predictor
+    factors: Mapping[str, float]
+    nearness: Nearness
+    residual_mm: float | None
+
+    @property
+    def name(self) -> str:
+        """As it stands in tables."""
+        return self.predictor.name
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """What it answers."""
+        return self.predictor.fields
+
+    def predict(self, question: Question) -> Answer:
+        """The answer, with intervals and verdict."""
+        answer = self.predictor.predict(question)
+        widths = {name: factor * _deviation(answer, name) for name, factor in self.factors.items()}
+        inside = self._inside(question)
+        return replace(answer, half_width_90=widths, inside=inside if answer.inside is None else inside & answer.inside)
+
+    def _inside(self, question: Question) -> np.ndarray:
+        residual = _residual(self.predictor, question)
+        agrees = np.ones(question.size, dtype=bool)
+        if residual is not None and self.residual_mm is not None:
+            agrees = residual <= self.residual_mm
+        if not _reads_activation(self.predictor):
+            return agrees
+        unknown = np.asarray(np.isnan(question.activation).any(axis=1))
+        told = np.where(unknown[:, None], self.nearness.low[:-1], question.activation)
+        return agrees & (unknown | self.nearness.near(told, question.hand_load))
+
+
+@dataclass(frozen=True)
+class CalibratedLearner:
+    """Fits a method to all but a share of the training cases, and calibrates it on these."""
+
+    learner: Learner
+    share: float = 0.15
+    seed: int = 0
+
+    @property
+    def name(self) -> str:
+        """As it stands in tables."""
+        return self.learner.name
+
+    def fit(self, sampler: PairSampler, split: Split, progress: Progress | None = None) -> CalibratedPredictor:
+        """Learn and calibrate; raises InputError where too few cases are left for either."""
+        rest, held_out = hold_out(sampler.cases, split, self.share, self.seed)
+        return calibrate(self.learner.fit(sampler, rest, progress), sampler, rest, held_out, self.seed)
+
+
+def hold_out(cases: MuscleCases, split: Split, share: float, seed: int) -> tuple[Split, Int[np.ndarray, " held_out"]]:
+    """The split without a share of its training cases, and these; raises InputError unless both have some."""
+    taught = split.train.cases
+    support = np.intersect1d(taught, cases.named(SUPPORT))
+    count = round(share * len(taught))
+    pool = support if len(support) >= 2 * count else taught
+    if not 0 < count < len(taught):
+        raise InputError(f"calibration: expected a share that holds out some of {len(taught)} cases, got {share:g}")
+    chosen = np.sort(np.random.default_rng((seed, 90)).permutation(pool)[:count])
+    initial, target = (np.setdiff1d(role, chosen) for role in (split.train.initial, split.train.target))
+    if not len(initial) or not len(target):
+        raise InputError(f"calibration: expected training cases beside the {count} held out, got none")
+    return replace(split, train=PairSet(initial, target)), chosen
+
+
+def calibrate(
+    predictor: Predictor, sampler: PairSampler, split: Split, held_out: Int[np.ndarray, " held_out"], seed: int = 0
+) -> CalibratedPredictor:
+    """Factors and limits from held-out target cases, each with an initial case drawn from the training."""
+    initial = np.random.default_rng((seed, 91)).choice(split.train.initial, len(held_out))
+    pairs = np.stack([initial, held_out], axis=1)
+    errors: dict[str, list[np.ndarray]] = {}
+    deviations: dict[str, list[np.ndarray]] = {}
+    residuals: list[np.ndarray] = []
+    for batch in sampler.batches(pairs, BATCH):
+        answer = predictor.predict(batch.question)
+        for name in set(answer.values) & set(batch.truth):
+            if name == "position" or not FIELDS[name].components:
+                errors.setdefault(name, []).append(distance(answer.values[name], batch.truth[name], name))
+                deviations.setdefault(name, []).append(_deviation(answer, name))
+        residual = _residual(predictor, batch.question)
+        residuals += [] if residual is None else [residual]
+    weights = edge_weights(sampler.cases.activation[held_out])
+    factors = {
+        name: conformal_factor(np.concatenate(errors[name]), np.concatenate(deviations[name]), weights)
+        for name in errors
+    }
+    limit = CONSERVATIVE * float(np.quantile(np.concatenate(residuals), RESIDUAL_LEVEL)) if residuals else None
+    return CalibratedPredictor(predictor, factors, nearness(sampler.cases, split.train.cases), limit)
+
+
+def edge_weights(activation: Float[np.ndarray, "cases muscles"]) -> Float[np.ndarray, " cases"]:
+    """How often a case of a grid stands for activations drawn anywhere in the unit cube, over one in the middle of it.
+
+    A value at an end of [0, 1] stands for half a step of the grid: one half for each muscle that is there. Cases of
+    continuous activations all weigh one, corners of the cube all the same.
+    """
+    return 0.5 ** ((activation == 0) | (activation == 1)).sum(axis=1)
+
+
+def distance(predicted: np.ndarray, true: np.ndarray, name: str) -> np.ndarray:
+    """Error of every node in every pair, in the field's unit."""
+    missed = predicted.astype(np.float64) - true
+    return np.linalg.norm(missed, axis=-1) if FIELDS[name].components else np.abs(missed)
+
+
+def _deviation(answer: Answer, name: str) -> np.ndarray:
+    return answer.deviation.get(name, np.ones(answer.values[name].shape[:2]))
+
+
+def _residual(predictor: Predictor, question: Question) -> np.ndarray | None:
+    if not isinstance(predictor, TorchPredictor) or RESIDUAL not in predictor.signature.outputs:
+        return None
+    return predictor.outputs(question)[RESIDUAL]
+
+
+def _reads_activation(predictor: Predictor) -> bool:
+    """Whether activations are part of what it answers from; methods that do not say count as such."""
+    return not isinstance(predictor, TorchPredictor) or "activation" in predictor.signature.inputs

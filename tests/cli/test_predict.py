@@ -1,0 +1,179 @@
+"""`myograph predict` and `myograph evaluate` on models whose errors are known by formula."""
+
+import json
+
+import numpy as np
+import pytest
+import typer
+
+from myograph.cli.evaluate import evaluate
+from myograph.cli.predict import predict
+from myograph.errors import InputError
+from myograph.inference.truth import write_truth
+from tests.inference.stand_in import place, save_linear, save_mean, stand_in_cases
+
+ERROR = 0.75  # mm, in x at every node
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Shipped models and their truth, whose every node is 0.75 mm beside what the model `linear` says."""
+    folder = tmp_path_factory.mktemp("models")
+    save_linear(folder / "linear")
+    save_mean(folder / "mean")
+    (folder / "truth").mkdir()
+    everything = np.arange(40)
+    write_truth(folder / "truth" / "biceps.npz", stand_in_cases(error=ERROR), everything, ("position", "von_mises"))
+    return folder
+
+
+@pytest.fixture
+def call(folder, capsys, monkeypatch):
+    """Call a verb as from the command line: what it prints."""
+    monkeypatch.setattr("myograph.inference.shipped.models_folder", lambda: folder)
+    app = typer.Typer()
+    app.command()(predict)
+    app.command()(evaluate)
+
+    def said(*words):
+        app([str(word) for word in words], standalone_mode=False)
+        return capsys.readouterr().out
+
+    return said
+
+
+def test_a_case_is_predicted_by_the_shipped_model(call):
+    found = json.loads(call("predict", "--activation", "0,0,1,0,0.5", "--load", "5", "--json"))
+    assert (found["model"], found["muscle"], found["nodes"], found["out"]) == ("linear", "biceps", 40, None)
+    rest, now = place(np.array([[0, 0, 0, 0, 0], [0, 0, 1, 0, 0.5]]))
+    moved = np.linalg.norm(now - rest, axis=1)
+    (case,) = found["cases"]
+    assert case["displacement_mean_mm"] == pytest.approx(moved.mean(), rel=1e-5)
+    assert case["von_mises_max_mpa"] == pytest.approx(moved.max() / 100, rel=1e-5)
+    assert (case["half_width_90_mm"], case["inside"]) == (0.25, True)
+
+
+def test_muscles_that_are_not_named_rest(call):
+    named = json.loads(call("predict", "linear", "--activation", "biceps=1, triceps=0.5", "--json"))
+    assert named["cases"] == json.loads(call("predict", "--activation", "0,0,1,0,0.5", "--json"))["cases"]
+
+
+def test_many_cases_come_from_a_file_and_go_into_one(call, tmp_path):
+    asked = tmp_path / "asked.csv"
+    asked.write_text("biceps,brachialis,brachioradialis,anconeus,triceps,hand_load_n\n1,0,0,0,0,0\n0,1,0,0,1,30\n")
+    text = call("predict", "--activations", asked, "--out", tmp_path / "out.npz")
+    assert "case 1: moved" in text
+    assert "OUTSIDE" in text.splitlines()[2]
+    with np.load(tmp_path / "out.npz", allow_pickle=False) as arrays:
+        expected = place(np.array([[0, 0, 1.0, 0, 0], [0, 1.0, 0, 0, 1.0]]))
+        np.testing.assert_allclose(arrays["position"], expected, atol=1e-4)
+        assert arrays["inside"].tolist() == [True, False]
+
+
+def test_sensors_come_from_a_file(call, tmp_path):
+    sensors = tmp_path / "sensors.csv"
+    rest = place(np.zeros((1, 5)))[0]
+    rows = "".join(f"{node},{x + 1},{y + 2},{z + 2}\n" for node, (x, y, z) in zip((3, 30), rest[[3, 30]], strict=True))
+    sensors.write_text("node,x_mm,y_mm,z_mm\n" + rows)
+    found = json.loads(call("predict", "--sensors", sensors, "--json"))
+    assert found["model"] == "mean"
+    assert found["cases"][0]["displacement_mean_mm"] == pytest.approx(3.0, rel=1e-5)
+    assert found["cases"][0]["von_mises_max_mpa"] is None
+
+
+def test_a_grid_for_paraview(call, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    call("predict", "--activation", "0,0,1,0,0", "--out", tmp_path / "out.vtkhdf")
+    with h5py.File(tmp_path / "out.vtkhdf") as file:
+        points = np.asarray(file["VTKHDF/Points"])
+    np.testing.assert_allclose(points, place(np.array([[0, 0, 1.0, 0, 0]]))[0], atol=1e-4)
+
+
+MISTAKES = {
+    (): "expected one of --activation and --activations, or --sensors",
+    ("--activation", "0,0,1,0,0", "--activations", "a.csv"): "expected one of",
+    ("--activation", "0,0,1"): "expected 5 numbers",
+    ("--activation", "0,0,x,0,0"): "expected numbers such as",
+    ("--activation", "0,0,1.5,0,0"): r"biceps: expected a number in \[0, 1\], got 1.5",
+    ("--activation", "bicep=1"): "unknown muscle 'bicep'",
+    ("--activation", "0,0,1,0,0", "--load", "nan"): "expected newtons",
+    ("--activation", "0,0,1,0,0", "--out", "a.xlsx"): r"ends in .csv, .npz, .vtkhdf",
+    ("nothing", "--activation", "0,0,1,0,0"): "nothing: expected the folder of a saved model",
+    ("mean", "--activation", "0,0,1,0,0"): "answers from sensors",
+    ("--activations", "none.csv"): "not a readable CSV file",
+    ("--activations", "angle.csv"): "expected no elbow_angle_deg",
+    ("--activations", "load.csv", "--load", "3"): "got both",
+    ("--activations", "foreign.csv"): "expected the columns",
+    ("--sensors", "none.csv"): "not a readable CSV file",
+}
+COLUMNS = "brachioradialis,brachialis,biceps,anconeus,triceps"
+
+
+@pytest.mark.parametrize("words", MISTAKES)
+def test_mistakes_are_named_and_nothing_is_written(call, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "angle.csv").write_text(f"{COLUMNS},elbow_angle_deg\n0,0,0,0,0,90\n")
+    (tmp_path / "load.csv").write_text(f"{COLUMNS},hand_load_n\n0,0,0,0,0,5\n")
+    (tmp_path / "foreign.csv").write_text(f"{COLUMNS},calf\n0,0,0,0,0,5\n")
+    with pytest.raises(InputError, match=MISTAKES[words]):
+        call("predict", *words, *(() if "--out" in words else ("--out", "out.npz")))
+    assert not list(tmp_path.glob("*out*"))
+
+
+def test_a_model_is_as_far_off_as_the_truth_was_moved(call, folder):
+    found = json.loads(call("evaluate", folder / "linear", folder / "truth" / "biceps.npz", "--json"))
+    assert set(found["protocols"]) == {"thesis", "strict", "off_grid"}
+    for figures in found["protocols"].values():
+        for name in ("mean_mm", "rmse_mm", "p95_mm", "max_mm"):
+            assert figures[name] == pytest.approx(ERROR, abs=1e-4)
+        assert figures["von_mises_max_mpa"] == pytest.approx(0, abs=1e-6)
+        assert figures["coverage_90"] == 0  # the model says ± 0.25 mm
+    assert found["parameters"] == 30
+    assert found["latency_ms"] > 0
+
+
+def test_without_a_name_all_shipped_models_are_evaluated(call):
+    found = json.loads(call("evaluate", "--pairs", "5", "--json"))["models"]
+    assert set(found) == {"linear", "mean"}
+    assert found["linear"]["protocols"]["strict"]["mean_mm"] == pytest.approx(ERROR, abs=1e-4)
+    assert found["linear"]["pairs"] == {"thesis": 5, "strict": 5, "off_grid": 5}
+    assert found["mean"]["protocols"]["strict"]["von_mises_mean_mpa"] is None
+
+
+def test_the_figures_are_said_in_words(call):
+    text = call("evaluate", "linear", "--pairs", "5")
+    assert "linear: biceps, 30 parameters" in text
+    assert "mean_mm              0.75" in text
+    assert "mean: biceps" in call("evaluate", "--pairs", "5")
+
+
+def test_protocols_that_would_flatter_are_left_out(call, folder, tmp_path):
+    origin = save_linear(tmp_path / "model").origin.model_copy(update={"protocol": "off_grid"})
+    save_linear(tmp_path / "model", origin=origin)
+    found = json.loads(call("evaluate", tmp_path / "model", folder / "truth" / "biceps.npz", "--json"))
+    assert set(found["protocols"]) == {"thesis", "off_grid"}
+    assert "taught this model" in found["left_out"]["strict"]
+    assert "strict: left out" in call("evaluate", tmp_path / "model")
+
+
+def test_cases_off_the_grid_are_enough(call, folder, tmp_path):
+    write_truth(tmp_path / "few.npz", stand_in_cases(), np.arange(32, 36), ("position",))
+    found = json.loads(call("evaluate", folder / "linear", tmp_path / "few.npz", "--json"))
+    assert found["pairs"] == {"off_grid": 12}
+    write_truth(tmp_path / "none.npz", stand_in_cases(), np.arange(32, 33), ("position",))
+    with pytest.raises(InputError, match="expected cases for at least one protocol"):
+        call("evaluate", folder / "linear", tmp_path / "none.npz")
+
+
+def test_there_is_nothing_to_evaluate_without_models(call, monkeypatch, tmp_path):
+    monkeypatch.setattr("myograph.inference.shipped.models_folder", lambda: tmp_path)
+    with pytest.raises(InputError, match="has no models of its own"):
+        call("evaluate")
+
+
+def test_a_dataset_that_is_none_is_refused(call, folder, tmp_path):
+    with pytest.raises(InputError, match="expected the store of an ensemble"):
+        call("evaluate", folder / "linear", tmp_path)
+    write_truth(tmp_path / "triceps.npz", stand_in_cases("triceps"), np.arange(40), ("position",))
+    with pytest.raises(InputError, match="expected cases of biceps, got those of triceps"):
+        call("evaluate", folder / "linear", tmp_path / "triceps.npz")
