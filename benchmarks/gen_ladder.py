@@ -37,7 +37,7 @@ ROWS: dict[str, NetworkConfig] = {
     "mlp": NetworkConfig(processor="mlp"),
     "mpnn": NetworkConfig(processor="mpnn"),
     "per-node sharpness": NetworkConfig(sharpness="per_node"),
-    "nearest": NetworkConfig(representer="nearest"),
+    "nearest, 4 nodes": NetworkConfig(representer="nearest", nearest=4),
     "context": NetworkConfig(context=True),
     "modulated": NetworkConfig(modulated=True),
     "wide": NetworkConfig(latent=64, hidden=(64, 64)),

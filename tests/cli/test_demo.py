@@ -14,7 +14,7 @@ from myograph.ensemble.store.reading import read_muscle
 from myograph.errors import MissingPackageError
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.skipif(not (find_spec("ngsolve") and find_spec("torch")), reason="the demo needs NGSolve and torch")
 def test_the_demo_simulates_learns_and_reports(tmp_path):
     command = [sys.executable, "-m", "myograph", "demo", "--preset", "tiny", "--out", str(tmp_path / "demo"), "--json"]

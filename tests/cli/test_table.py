@@ -36,6 +36,7 @@ def finite_elements(tmp_path_factory):
     return tmp_path_factory.mktemp("built")
 
 
+@pytest.mark.exhaustive
 def test_a_table_is_built_to_its_tolerance_and_its_errors_are_told(finite_elements):
     done = _table(
         "build", "--preset", "tiny", "--muscle", "anconeus", "--tolerance-mm", "0.5", "--tolerance-nm", "0.2",

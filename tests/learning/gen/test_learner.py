@@ -64,6 +64,7 @@ def test_every_kind_answers_the_fields_of_its_outputs_with_numbers(kind, briefly
         assert np.isfinite(values).all()
 
 
+@pytest.mark.exhaustive
 def test_every_kind_is_the_same_in_onnx(kind, briefly_trained, stressed, strict):
     """`export` itself compares the answers of onnxruntime with those of torch."""
     pytest.importorskip("onnxscript")
