@@ -79,7 +79,7 @@ def _training(asked: argparse.Namespace, seed: int) -> TrainingConfig:
 
 
 def _table(found: dict[str, dict[str, list[float]]], protocols: list[str]) -> Table:
-    table = Table("network", *(f"{protocol} [mm]" for protocol in protocols))
+    table = Table("network", *(f"{protocol}, mm" for protocol in protocols))
     for name, errors in found.items():
         table.add_row(name, *(f"{np.mean(errors[p]):.2f} ± {np.std(errors[p]):.2f}" for p in protocols))
     return table

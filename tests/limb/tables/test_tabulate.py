@@ -67,9 +67,9 @@ def test_a_damaged_state_is_solved_anew_and_nothing_else(made, tmp_path, monkeyp
     victim.write_bytes(victim.read_bytes()[:500])
     original, solved = muscle_module.reach, []
 
-    def spy(problem, start, target):
+    def spy(problem, start, target, **most):
         solved.append(target)
-        return original(problem, start, target)
+        return original(problem, start, target, **most)
 
     monkeypatch.setattr(muscle_module, "reach", spy)
     again = tabulate_muscle(built_in_arm(), "biceps", "tiny", SPEC, lambda _: None, tmp_path / "copy")
@@ -98,9 +98,9 @@ def test_a_killed_build_goes_on_where_it_was(tmp_path, monkeypatch):
     assert not table_path(tmp_path, "anconeus").exists()
     original, solved = muscle_module.reach, []
 
-    def spy(problem, start, target):
+    def spy(problem, start, target, **most):
         solved.append((round(target.flexion, 9), target.activation))
-        return original(problem, start, target)
+        return original(problem, start, target, **most)
 
     monkeypatch.setattr(muscle_module, "reach", spy)
     table = tabulate_muscle(built_in_arm(), "anconeus", "tiny", spec, lambda _: None, tmp_path)
