@@ -1,15 +1,21 @@
 """The arm by finite elements at its equilibrium."""
 
+import shutil
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from myograph.anatomy.load import built_in_arm
-from myograph.case import Case
+from myograph.case import MUSCLES, Case
 from myograph.errors import InputError
 from myograph.units import radians
 
 pytest.importorskip("ngsolve", reason="the mechanics need NGSolve")
 from myograph.limb.direct_arm import ACCURACY, DirectArm, stable_root
+from myograph.limb.tables.spec import TableSpec
+from myograph.limb.tables.tabulate import tabulate
+from myograph.limb.tables.unknowns import interpolated_unknowns
 
 
 @pytest.mark.parametrize("start", [-2.0, 0.1, 1.1, 2.9, 7.0])
@@ -75,3 +81,33 @@ def test_who_forgets_answers_the_same_bits_again(arm):
     arm(other)
     arm.forget()
     assert np.array_equal(arm(case).fields["biceps"]["position"], first)
+
+
+@pytest.fixture(scope="module")
+def tabulated(tmp_path_factory):
+    """A folder with tables and states of nine points each."""
+    folder = tmp_path_factory.mktemp("tables")
+    return folder, tabulate(built_in_arm(), "tiny", TableSpec.regular(2), folder, lambda _: None)
+
+
+def test_states_kept_beside_tables_spare_the_way_and_not_the_truth(arm, tabulated):
+    folder, tables = tabulated
+    case = Case((0.15, 0.25, 0.3, 0.1, 0.1), hand_load=10.0)
+    beside = DirectArm.beside_tables(folder, built_in_arm(), tables, "tiny")
+    expected, found = arm(case), beside(case)
+    assert all(not muscle._rest.keys() - {muscle._reference} for muscle in beside._muscles.values())
+    assert found.elbow_angle == pytest.approx(expected.elbow_angle, abs=2 * ACCURACY)
+    here = DirectArm.beside_tables(folder, built_in_arm(), tables, "tiny")(replace(case, elbow_angle=radians(75)))
+    there = arm(replace(case, elbow_angle=radians(75)))
+    for name in MUSCLES:
+        assert here.fields[name]["position"] == pytest.approx(there.fields[name]["position"], abs=1e-4)
+
+
+def test_only_states_of_the_same_preset_that_are_all_there_are_starts(tabulated, tmp_path):
+    folder, tables = tabulated
+    shutil.copytree(folder, tmp_path / "copy")
+    next((tmp_path / "copy" / "states" / "biceps").iterdir()).unlink()
+    arm = built_in_arm()
+    assert set(interpolated_unknowns(folder, arm, tables, "tiny")) == set(MUSCLES)
+    assert set(interpolated_unknowns(tmp_path / "copy", arm, tables, "tiny")) == set(MUSCLES) - {"biceps"}
+    assert not interpolated_unknowns(folder, arm, tables, "quick")

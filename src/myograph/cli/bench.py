@@ -46,7 +46,7 @@ def limb(
 ) -> None:
     """Set an arm's tables beside finite elements at random equilibria: milliseconds, and errors in mm and degrees."""
     arm = read_table_arm(tables, arm_file, gravity=True)
-    result = _judged(arm, arm.tables[MUSCLES[0]].preset, cases, seed)
+    result = _judged(arm, tables, cases, seed)
     if json:
         print_json(result)
         return
@@ -64,8 +64,8 @@ def limb(
         typer.echo(f"    {name:16} {row['mean']:8.4f} mm in the mean, {row['max']:.3f} at most")
 
 
-def _judged(arm: TableArm, preset: str, count: int, seed: int) -> dict[str, Any]:
-    chosen = random_cases(count, seed)
+def _judged(arm: TableArm, folder: Path, count: int, seed: int) -> dict[str, Any]:
+    chosen, preset = random_cases(count, seed), arm.tables[MUSCLES[0]].preset
     table_ms = 1000 * seconds_per_case(arm, random_cases(_TIMED, seed))
     try:
         from myograph.limb.direct_arm import DirectArm
@@ -74,7 +74,7 @@ def _judged(arm: TableArm, preset: str, count: int, seed: int) -> dict[str, Any]
     rows: list[Judgement] = []
     steps = Steps()
     with steps.bars("finite elements", {"cases": count}) as advance:
-        direct = DirectArm(arm.arm, preset, gravity=arm.gravity, guess=arm.angle)
+        direct = DirectArm.beside_tables(folder, arm.arm, arm.tables, preset, gravity=arm.gravity)
         for row in judge(arm, direct, chosen):
             rows.append(row)
             advance("cases")

@@ -21,6 +21,7 @@ from myograph.errors import InputError, MissingPackageError, MyographError
 from myograph.limb.table_arm import TableArm
 from myograph.limb.tables.folder import load_tables
 from myograph.limb.tables.table import MuscleTable
+from myograph.limb.tables.unknowns import interpolated_unknowns
 from myograph.mesh.presets import preset_mesh
 
 BUILT_IN = ("table", "direct")
@@ -58,8 +59,10 @@ def make_simulator(spec: SimulatorSpec) -> Simulator:
         except ModuleNotFoundError as missing:
             raise MissingPackageError(str(missing.name), "simulate", "solving muscles") from None
         arm = read_arm(spec)
-        guess = TableArm(arm, _tables(spec, arm), spec.gravity).angle if spec.tables else None
-        return DirectArm(arm, spec.preset, gravity=spec.gravity, guess=guess)
+        if spec.tables is None:
+            return DirectArm(arm, spec.preset, gravity=spec.gravity)
+        tables = _tables(spec, arm)
+        return DirectArm.beside_tables(Path(spec.tables), arm, tables, spec.preset, gravity=spec.gravity)
     return _own(spec)
 
 
@@ -75,15 +78,19 @@ def make_bodies(spec: SimulatorSpec) -> dict[str, Body]:
 def describe_simulator(spec: SimulatorSpec) -> dict[str, Any]:
     """All that the answers depend on, not where it lies; raises InputError for tables of another arm or preset."""
     arm = read_arm(spec)
-    used = spec.kind == "table" or (spec.kind == "direct" and spec.tables is not None)
-    tables = {name: table.key for name, table in _tables(spec, arm).items()} if used else {}
-    return {
+    described = {
         "kind": spec.kind,
         "preset": spec.preset,
         "arm_checksum": arm_checksum(arm),
         "gravity": spec.gravity,
-        "tables": tables,
+        "tables": {},
     }
+    if spec.kind == "table" or (spec.kind == "direct" and spec.tables is not None):
+        tables = _tables(spec, arm)
+        described["tables"] = {name: table.key for name, table in tables.items()}
+        if spec.kind == "direct":
+            described["starts"] = list(interpolated_unknowns(Path(str(spec.tables)), arm, tables, spec.preset))
+    return described
 
 
 def made_anew(simulator: Simulator, spec: SimulatorSpec) -> Simulator:

@@ -1,10 +1,13 @@
 """The arm by finite elements: every muscle solved at the angle at which all moments cancel; slow and the truth.
 
 The balance is followed from a first guess towards the side to which the net moment turns the elbow, until it changes
-its sign, and is closed in by a bracketed search.
+its sign, and is closed in by a bracketed search. Tables of the arm spare most of the way: they guess the angle, and the
+unknowns that are kept beside them, interpolated, are where Newton's method starts.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 from scipy.optimize import root_scalar
@@ -12,7 +15,11 @@ from scipy.optimize import root_scalar
 from myograph.anatomy.model import Arm
 from myograph.case import MUSCLES, Case, Solution
 from myograph.errors import InputError, NotConvergedError
+from myograph.interpolation import Interpolant
 from myograph.limb.moments import WeightsAndStops
+from myograph.limb.table_arm import TableArm
+from myograph.limb.tables.table import MuscleTable
+from myograph.limb.tables.unknowns import interpolated_unknowns
 from myograph.mechanics.continuation import Solved
 from myograph.mechanics.muscle import FiniteElementMuscle, MuscleState
 from myograph.units import degrees, newton_metres, radians
@@ -40,14 +47,32 @@ class DirectArm:
         Whether the forearm's own weight acts.
     guess
         Angle [rad] from which a case's equilibrium is sought; the reference pose where none is given.
+    starts
+        Muscle -> unknowns over (angle [rad], activation), from which its states are tried first.
     """
 
     def __init__(
-        self, arm: Arm, preset: str = "quick", *, gravity: bool = True, guess: Callable[[Case], float] | None = None
+        self,
+        arm: Arm,
+        preset: str = "quick",
+        *,
+        gravity: bool = True,
+        guess: Callable[[Case], float] | None = None,
+        starts: Mapping[str, Interpolant] | None = None,
     ) -> None:
         self.arm, self._guess = arm, guess
         self._outside = WeightsAndStops(arm.load, arm.stops, gravity)
-        self._muscles = {name: _Remembering(FiniteElementMuscle(arm, name, preset)) for name in MUSCLES}
+        self._muscles = {
+            name: _Remembering(FiniteElementMuscle(arm, name, preset), (starts or {}).get(name)) for name in MUSCLES
+        }
+
+    @classmethod
+    def beside_tables(
+        cls, folder: Path, arm: Arm, tables: Mapping[str, MuscleTable], preset: str, *, gravity: bool = True
+    ) -> "DirectArm":
+        """The arm that starts from tables of any preset, and from the states kept in their folder if of this one."""
+        starts = interpolated_unknowns(folder, arm, tables, preset)
+        return cls(arm, preset, gravity=gravity, guess=TableArm(arm, tables, gravity).angle, starts=starts)
 
     def __call__(self, case: Case) -> Solution:
         """Fields of all muscles at the case's angle, or at the equilibrium next to the guess.
@@ -110,10 +135,10 @@ def stable_root(balance: Balance, start: float, low: float, high: float) -> floa
 
 
 class _Remembering:
-    """A muscle whose states start from those that were solved before: from a near one straight, else by way of rest."""
+    """A muscle whose states start from interpolated ones, from a near one solved before, else by way of rest."""
 
-    def __init__(self, muscle: FiniteElementMuscle) -> None:
-        self._muscle = muscle
+    def __init__(self, muscle: FiniteElementMuscle, starts: Interpolant | None) -> None:
+        self._muscle, self._starts = muscle, starts
         self._reference = muscle.arm.reference_angle
         self._rest: dict[float, Solved] = {self._reference: muscle.at_rest()}
         self._active: dict[tuple[float, float], Solved] = {}
@@ -132,6 +157,9 @@ class _Remembering:
         return self._muscle.read(self._active[activation, angle])
 
     def _reached(self, activation: float, angle: float) -> Solved:
+        if self._starts is not None:
+            with suppress(NotConvergedError):
+                return self._muscle.settled(activation, angle, self._starts(np.array([angle, activation])))
         near = [known for known in self._active if abs(known[0] - activation) + abs(known[1] - angle) < _NEAR]
         if near:
             nearest = min(near, key=lambda known: abs(known[0] - activation) + abs(known[1] - angle))

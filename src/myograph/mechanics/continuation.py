@@ -111,6 +111,17 @@ def reach(
     return replace(here, controls=target, newton_steps=steps)
 
 
+def settled(problem: MuscleProblem, guess: Float[np.ndarray, " unknowns"], target: Controls) -> Solved:
+    """Solve at `target` straight from a guess of all unknowns.
+
+    Raises NotConvergedError with the place and the residuals where Newton's method does not lead there.
+    """
+    result = _step(problem, Solved(target, guess, 0), target, None)
+    if result.failure:
+        raise _failure(problem, target, result.failure, result.residuals)
+    return Solved(target, result.vector, result.tangents)
+
+
 def _step(problem: MuscleProblem, here: Solved, controls: Controls, rate: np.ndarray | None) -> NewtonResult:
     """One load step; with a rate, along the parabola."""
     guess = here.vector

@@ -10,7 +10,7 @@ from jaxtyping import Float
 from myograph.anatomy.model import Arm
 from myograph.case import check_activation, check_muscle
 from myograph.errors import InputError
-from myograph.mechanics.continuation import Controls, Solved, at_rest, reach, set_controls
+from myograph.mechanics.continuation import Controls, Solved, at_rest, reach, set_controls, settled
 from myograph.mechanics.problem import MuscleProblem
 from myograph.mechanics.soundness import Soundness, check_clear, soundness
 from myograph.mechanics.stress import FieldReader
@@ -100,6 +100,14 @@ class FiniteElementMuscle:
         """
         check_activation(activation, self._problem.name)
         return reach(self._problem, start, Controls(1.0, activation, self._flexion(angle)), most=most)
+
+    def settled(self, activation: float, angle: float, guess: Float[np.ndarray, " unknowns"]) -> Solved:
+        """State at an activation and an elbow flexion [rad], straight from a guess of its unknowns.
+
+        Raises InputError outside the box, NotConvergedError where Newton's method does not lead there.
+        """
+        start = self.restored(check_activation(activation, self._problem.name), angle, guess)
+        return settled(self._problem, start.vector, start.controls)
 
     def restored(self, activation: float, angle: float, vector: Float[np.ndarray, " unknowns"]) -> Solved:
         """A state that was solved before, from its unknowns; raise InputError for those of another mesh."""
