@@ -10,6 +10,7 @@ from myograph.case import MUSCLES, Case
 from myograph.ensemble.simulators import describe_simulator, made_anew, make_bodies, make_simulator
 from myograph.ensemble.spec import SimulatorSpec
 from myograph.errors import InputError
+from myograph.limb.direct_arm import DirectArm
 from myograph.limb.tables.adaptive import built
 from myograph.limb.tables.provenance import table_key
 from myograph.limb.tables.spec import TableSpec
@@ -108,11 +109,11 @@ def test_tables_of_another_arm_are_refused(tables, tmp_path):
 def test_finite_elements_seek_equilibria_from_those_of_tables_where_there_are_some(tables, monkeypatch):
     made = {}
 
-    def direct(*_, guess, **__):
-        made["guess"] = guess
-        return make_simulator(spec(tables))
+    class Spy(DirectArm):
+        def __init__(self, *_, guess=None, **__):
+            made["guess"] = guess
 
-    monkeypatch.setattr("myograph.limb.direct_arm.DirectArm", direct)
+    monkeypatch.setattr("myograph.limb.direct_arm.DirectArm", Spy)
     make_simulator(spec(tables, kind="direct", preset="quick", tables=None))
     assert made["guess"] is None
     make_simulator(spec(tables, kind="direct", preset="quick"))
