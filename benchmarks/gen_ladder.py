@@ -1,7 +1,7 @@
 """What each switch of the graph element network is worth: mean error of a muscle's nodes, a row for each switch.
 
     python benchmarks/gen_ladder.py --store DIR [--muscle biceps] [--rows NAME ...] [--protocol strict off_grid]
-        [--seeds 3] [--steps 300] [--batch 8] [--queries 64] [--nodes-per-axis 2] [--json]
+        [--seeds 3] [--steps 300] [--batch 8] [--queries 64] [--nodes-per-axis 2] [--learning-rate 6e-3] [--json]
 
 Every row is trained alike, from as many seeds; `traps` are rows of the thesis network with one mistake each.
 """
@@ -75,7 +75,9 @@ def mean_error(predictor: Predictor, sampler: PairSampler, split: Split) -> floa
 
 
 def _training(asked: argparse.Namespace, seed: int) -> TrainingConfig:
-    return TrainingConfig(steps=asked.steps, batch=asked.batch, queries=asked.queries, seed=seed)
+    return TrainingConfig(
+        steps=asked.steps, batch=asked.batch, queries=asked.queries, learning_rate=asked.learning_rate, seed=seed
+    )
 
 
 def _table(found: dict[str, dict[str, list[float]]], protocols: list[str]) -> Table:
@@ -93,6 +95,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--protocol", nargs="+", default=["strict", "off_grid"])
     for name, default in (("seeds", 3), ("steps", 300), ("batch", 8), ("queries", 64), ("nodes-per-axis", 2)):
         parser.add_argument(f"--{name}", type=int, default=default)
+    parser.add_argument("--learning-rate", type=float, default=TrainingConfig().learning_rate)
     parser.add_argument("--json", action="store_true")
     return parser.parse_args()
 

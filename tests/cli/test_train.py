@@ -32,6 +32,7 @@ device = "cpu"
 checkpoint_every = 2
 """
 AFFINE = 'store = "store"\nmethod = "affine"\npairs = 10\n'
+FEED_FORWARD = 'store = "store"\nmethod = "feed_forward"\npairs = 4\n[training]\nsteps = 2\n'
 
 app = typer.Typer()
 app.command()(train)
@@ -236,3 +237,20 @@ def test_only_the_first_of_several_processes_tells_and_saves(place, monkeypatch)
     monkeypatch.setattr(verb, "in_first_process", lambda: False)
     assert run(GEN) == ""
     assert not (place / "asked" / "model").exists()
+
+
+def test_a_method_with_cases_enough_is_saved_with_its_intervals(place, monkeypatch):
+    saved = []
+    monkeypatch.setattr(saving, "save_model", lambda model, training, folder: saved.append((model, training)))
+    run(FEED_FORWARD.replace("pairs", 'protocol = "off_grid"\ncalibration = 0.4\npairs'))
+    ((model, training),) = saved
+    assert model.name == "feed_forward"
+    assert training.half_width_90["position"] > 0
+    assert training.split_seed == 0
+
+
+def test_too_few_cases_calibrate_nothing(place, monkeypatch):
+    saved = []
+    monkeypatch.setattr(saving, "save_model", lambda model, training, folder: saved.append(training))
+    run(FEED_FORWARD)
+    assert saved[0].half_width_90 == {}

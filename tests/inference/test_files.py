@@ -145,6 +145,27 @@ def test_the_shipped_model_that_answers_what_is_asked_is_found(shipped, tmp_path
         find_model("nothing")
 
 
+def test_models_of_an_arm_come_after_single_ones_and_have_a_truth_of_their_own_body(shipped):
+    save_linear(shipped / "arm" / "biceps")
+    save_linear(shipped / "finer")
+    (shipped / "truth" / "arm").mkdir(parents=True)
+    write_truth(shipped / "truth" / "arm" / "biceps.npz", stand_in_cases(), np.arange(2), ("position",))
+    assert list(shipped_models()) == ["finer", "arm/biceps"]
+    assert find_model(None) == shipped / "finer"
+    assert find_model("arm/biceps") == shipped / "arm" / "biceps"
+    assert len(shipped_truth("biceps", nodes=40)) == 2
+    with pytest.raises(InputError, match="a body of 41 nodes, only of 40"):
+        shipped_truth("biceps", nodes=41)
+
+
+def test_positions_of_a_truth_are_kept_to_a_ten_thousandth_of_a_millimetre(tmp_path):
+    cases = stand_in_cases()
+    write_truth(tmp_path / "truth.npz", cases, np.arange(3), ("position",))
+    kept = read_truth(tmp_path / "truth.npz").values("position", np.arange(3))
+    assert np.abs(kept - cases.values("position", np.arange(3))).max() <= 2**-14
+    assert not np.mod(kept * 2**13, 1).any()
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [

@@ -102,12 +102,22 @@ def test_sensors_that_contradict_each_other_are_outside(mean):
 
 def test_sensors_that_left_their_box_of_training_are_outside(mean):
     low, high = mean.body.low[[4, 30]], mean.body.high[[4, 30]]
-    reach = 0.1 * np.linalg.norm(high - low, axis=1)
+    length = np.linalg.norm(np.ptp(mean.body.rest["position"], axis=0))
+    reach = 0.1 * np.linalg.norm(high - low, axis=1) + 1e-3 * length
     corner = np.array([[0.0, 0.0, 1.0]] * 2)
     within, beyond = high + 0.9 * reach.min() * corner, high + 1.1 * reach.max() * corner
     lenient = replace(mean, told=mean.told.model_copy(update={"trained_range": _any_residual(mean)}))
     assert lenient.predict_sensors([4, 30], within).inside.tolist() == [True]
     assert lenient.predict_sensors([4, 30], beyond).inside.tolist() == [False]
+
+
+def test_a_sensor_on_a_clamped_node_may_be_off_a_little(mean):
+    still = replace(mean.body, low=mean.body.rest["position"], high=mean.body.rest["position"])
+    lenient = replace(mean, body=still, told=mean.told.model_copy(update={"trained_range": _any_residual(mean)}))
+    length = np.linalg.norm(np.ptp(still.rest["position"], axis=0))
+    rest, along = still.rest["position"][[4, 30]], np.array([0.0, 0.0, length])
+    assert lenient.predict_sensors([4, 30], rest + 9e-4 * along).inside.tolist() == [True]
+    assert lenient.predict_sensors([4, 30], rest + 1.1e-3 * along).inside.tolist() == [False]
 
 
 def _any_residual(model):

@@ -6,7 +6,8 @@ import pytest
 from myograph.ensemble.pairs.predictor import Learner
 from myograph.errors import InputError
 from myograph.learning.baselines.deeponet import DeepONet
-from myograph.learning.learners import LEARNERS, Asked, make_learner
+from myograph.learning.learners import LEARNERS, Asked, Untaught, make_learner
+from myograph.learning.trust.calibrated import CalibratedLearner
 
 
 @pytest.mark.parametrize("method", LEARNERS)
@@ -18,6 +19,11 @@ def test_a_method_that_learns_nothing_answers_as_it_is(sampler, strict):
     batch = sampler.batch(strict.test[:2])
     answered = make_learner(Asked("do_nothing")).fit(sampler, strict).predict(batch.question).values["position"]
     np.testing.assert_array_equal(answered, batch.question.query_initial["position"])
+
+
+def test_only_methods_that_learn_are_calibrated():
+    assert isinstance(make_learner(Asked("gappy_pod", calibration=0.2)), CalibratedLearner)
+    assert isinstance(make_learner(Asked("affine", calibration=0.2)), Untaught)
 
 
 def test_settings_go_over_the_method_s_own():

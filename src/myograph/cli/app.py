@@ -11,44 +11,20 @@ from typing import Annotated
 import typer
 
 import myograph
-from myograph.cli.arm import arm
-from myograph.cli.bench import app as bench_app
-from myograph.cli.dataset import app as dataset_app
-from myograph.cli.demo import demo
-from myograph.cli.ensemble import app as ensemble_app
-from myograph.cli.evaluate import evaluate
-from myograph.cli.move import move
-from myograph.cli.optimise import optimise
-from myograph.cli.predict import predict
-from myograph.cli.solve import solve
-from myograph.cli.table import app as table_app
-from myograph.cli.train import train
-from myograph.cli.verify import verify
+from myograph.cli.verbs import Verbs
 from myograph.errors import MyographError
 
 INTERRUPTED = 130
 
 app = typer.Typer(
     name="myograph",
+    cls=Verbs,
     help="Muscle activations in, deformed muscles out.",
     add_completion=False,
     no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
-app.command()(demo)
-app.command()(arm)
-app.command()(solve)
-app.command()(optimise)
-app.command()(move)
-app.command()(verify)
-app.command()(train)
-app.command()(predict)
-app.command()(evaluate)
-app.add_typer(table_app)
-app.add_typer(ensemble_app)
-app.add_typer(dataset_app)
-app.add_typer(bench_app)
 
 
 def _show_version(wanted: bool) -> None:

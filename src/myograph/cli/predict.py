@@ -120,7 +120,7 @@ def _asked(activation: str | None, activations: Path | None, sensors: Path | Non
     if (activation is None) == (activations is None) and (sensors is None or activation is not None):
         raise InputError("expected one of --activation and --activations, or --sensors; see 'myograph predict --help'")
     if activations is None:
-        row = None if activation is None else np.array([_numbers(activation)])
+        row = None if activation is None else np.array([activation_numbers(activation)])
         return _Asked(row, np.array([load_n]), sensors)
     cases, _ = read_cases(activations, "asked")
     if any(case.elbow_angle is not None for case in cases):
@@ -131,7 +131,8 @@ def _asked(activation: str | None, activations: Path | None, sensors: Path | Non
     return _Asked(np.array([case.activations for case in cases]), loads + load_n, sensors)
 
 
-def _numbers(text: str) -> list[float]:
+def activation_numbers(text: str) -> list[float]:
+    """Of all five muscles, from five numbers or from names; raises InputError for anything else."""
     parts = text.split(",")
     try:
         if "=" not in text:

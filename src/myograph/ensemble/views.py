@@ -1,7 +1,7 @@
 """Cases of a store seen otherwise: some of them under other words, or those of two stores one after the other.
 
-Nothing is copied: fields stay where they lie. A view has a checksum of its own, so that what is learned from it is never
-taken for what was learned from the whole.
+Nothing is copied: fields stay where they lie. A view has a checksum of its own, so that what is learned from it is
+never taken for what was learned from the whole.
 """
 
 import hashlib

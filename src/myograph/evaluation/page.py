@@ -26,17 +26,22 @@ def report_page(report: Report) -> str:
     """HTML of the whole report; sections without content are left out."""
     sections = [
         _section("Errors", error_tables(report.errors)),
-        _section("Pictures", "\n".join(_figure(figure) for figure in report.figures)),
-        _section("Times", _terms({name: duration(seconds) for name, seconds in report.times.items()})),
-        _section("How to do it again", _terms(report.provenance)),
+        _section("Pictures", "\n".join(figure_html(figure) for figure in report.figures)),
+        _section("Times", terms_html({name: duration(seconds) for name, seconds in report.times.items()})),
+        _section("How to do it again", terms_html(report.provenance)),
         _section("Limits", _items(report.notes)),
     ]
+    return framed(report.title, report.summary, "\n".join(sections))
+
+
+def framed(title: str, summary: Iterable[str], sections: str) -> str:
+    """A page of sections that are HTML already, in the common frame and style."""
     here = files("myograph.evaluation")
     return Template((here / "page.html").read_text(encoding="utf-8")).substitute(
-        title=escape(report.title),
+        title=escape(title),
         style=(here / "page.css").read_text(encoding="utf-8"),
-        summary="\n".join(f"<p>{escape(sentence)}</p>" for sentence in report.summary),
-        sections="\n".join(sections),
+        summary="\n".join(f"<p>{escape(sentence)}</p>" for sentence in summary),
+        sections=sections,
     )
 
 
@@ -51,15 +56,18 @@ def _section(heading: str, content: str) -> str:
     return f"<section>\n<h2>{heading}</h2>\n{content}\n</section>" if content else ""
 
 
-def _figure(figure: Figure) -> str:
+def figure_html(figure: Figure) -> str:
+    """A picture with its caption, the image inside."""
     data = base64.b64encode(figure.png).decode("ascii")
     image = f'<img alt="{escape(figure.alt)}" src="data:image/png;base64,{data}">'
     return f"<figure>\n{image}\n<figcaption>{escape(figure.caption)}</figcaption>\n</figure>"
 
 
-def _terms(terms: Mapping[str, str]) -> str:
+def terms_html(terms: Mapping[str, str], style: str = "") -> str:
+    """Terms and what they mean; `style` is a class of the style sheet."""
     rows = "\n".join(f"<dt>{escape(term)}</dt><dd>{escape(meaning)}</dd>" for term, meaning in terms.items())
-    return f"<dl>\n{rows}\n</dl>" if rows else ""
+    opening = f'<dl class="{escape(style)}">' if style else "<dl>"
+    return f"{opening}\n{rows}\n</dl>" if rows else ""
 
 
 def _items(texts: Iterable[str]) -> str:

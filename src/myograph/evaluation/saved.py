@@ -4,13 +4,15 @@ A protocol is fair where its test pairs hold nothing that the model's training s
 that learned by `thesis` or `off_grid` has seen every factorial case as a target, so `strict` would flatter it.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Int
 
 from myograph.ensemble.muscle_cases import MuscleCases
 from myograph.ensemble.pairs.protocols import OFF_GRID, PROTOCOLS, PairSet, Protocol, split_pairs
+from myograph.ensemble.pairs.question import Batch, Question
 from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
 from myograph.errors import InputError
 from myograph.evaluation.evaluate import evaluate
@@ -27,6 +29,8 @@ FAIR: dict[str, tuple[Protocol, ...]] = {
 }
 """Protocol of the training -> protocols of the test."""
 PAIRS, DRAW_SEED = 1024, 0
+WHOLE = "all"
+"""The way of being told everything."""
 
 
 @dataclass(frozen=True)
@@ -37,17 +41,24 @@ class SavedEvaluation:
     ----------
     protocols
         Errors by protocol.
+    ways
+        Likewise from activations alone, and from sensors alone, where the model answers from both, or from either:
+        'activation', 'sensors' -> protocol -> errors.
     pairs
         Protocol -> number of pairs.
     left_out
         Protocol -> why it is not there.
+    truth
+        What the cases were computed by; empty where they do not say.
     latency_ms
         One forward pass for all nodes [ms].
     """
 
     protocols: dict[str, ErrorSummary]
+    ways: dict[str, dict[str, ErrorSummary]]
     pairs: dict[str, int]
     left_out: dict[str, str]
+    truth: str
     latency_ms: float
 
 
@@ -58,7 +69,9 @@ def evaluate_saved(model: LoadedModel, cases: MuscleCases, most_pairs: int = PAI
     """
     check_same_body(model, cases)
     sampler = _sampler(model, cases)
-    errors, pairs, left_out = {}, {}, {}
+    asked = ways(model)
+    found: dict[str, dict[str, ErrorSummary]] = {way: {} for way in asked}
+    pairs, left_out = {}, {}
     for protocol in PROTOCOLS:
         if protocol not in FAIR.get(model.told.origin.protocol, PROTOCOLS):
             left_out[protocol] = f"its cases taught this model (trained by '{model.told.origin.protocol}')"
@@ -69,10 +82,43 @@ def evaluate_saved(model: LoadedModel, cases: MuscleCases, most_pairs: int = PAI
             left_out[protocol] = str(problem)
             continue
         chosen = _some(chosen, most_pairs)
-        errors[protocol], pairs[protocol] = evaluate(model, sampler.batches(chosen)).summary(), len(chosen)
+        pairs[protocol] = len(chosen)
+        for way, hide in asked.items():
+            found[way][protocol] = evaluate(model, _hidden(sampler.batches(chosen), hide)).summary()
+    errors = found.pop(WHOLE)
     if not errors:
         raise InputError(f"{model.name}: expected cases for at least one protocol, got none: {left_out}")
-    return SavedEvaluation(errors, pairs, left_out, forward_milliseconds(model))
+    truth = cases.attributes.get("simulator", "")
+    return SavedEvaluation(errors, found, pairs, left_out, truth, forward_milliseconds(model))
+
+
+def ways(model: LoadedModel) -> dict[str, Callable[[Question], Question]]:
+    """How it may be asked -> what is hidden from it."""
+    signature = model.told.signature
+    found: dict[str, Callable[[Question], Question]] = {WHOLE: lambda question: question}
+    if signature.takes_sensors and signature.unknown_activation and signature.least_sensors == 0:
+        found |= {"activation": without_sensors, "sensors": without_activation}
+    return found
+
+
+def without_sensors(question: Question) -> Question:
+    """The same, told nothing by sensors."""
+    return replace(
+        question,
+        sensor_nodes=question.sensor_nodes[:0],
+        sensor_places=question.sensor_places[:, :0],
+        sensor_initial={name: values[:, :0] for name, values in question.sensor_initial.items()},
+        sensor_target={name: values[:, :0] for name, values in question.sensor_target.items()},
+    )
+
+
+def without_activation(question: Question) -> Question:
+    """The same, not told the activations."""
+    return replace(question, activation=np.full_like(question.activation, np.nan))
+
+
+def _hidden(batches: Iterator[Batch], hide: Callable[[Question], Question]) -> Iterator[Batch]:
+    return (replace(batch, question=hide(batch.question)) for batch in batches)
 
 
 def _sampler(model: LoadedModel, cases: MuscleCases) -> PairSampler:

@@ -1,7 +1,8 @@
 """The models that come with the package, and the truth that they are held against.
 
-models/NAME/            a saved model
-models/truth/MUSCLE.npz cases of that muscle, see `myograph.inference.truth`
+models/NAME/             a saved model
+models/arm/MUSCLE/       one of five that share the network for the elbow's angle; its name is arm/MUSCLE
+models/truth/MUSCLE.npz  cases of that muscle, see `myograph.inference.truth`; truth/arm/MUSCLE.npz for the arm's bodies
 """
 
 from importlib.resources import files
@@ -13,6 +14,8 @@ from myograph.errors import InputError
 from myograph.inference.model_file import MODEL_FILE, ModelFile, read_model_file
 from myograph.inference.truth import read_truth
 
+ARM, TRUTH = "arm", "truth"
+"""Folders of more than one model, and of cases."""
 _ORDER = ("biceps", *(muscle for muscle in MUSCLES if muscle != "biceps"))
 _NONE = "this installation has no models of its own; give the folder of a saved one (myograph train makes them)"
 
@@ -23,10 +26,10 @@ def models_folder() -> Path:
 
 
 def shipped_models() -> dict[str, Path]:
-    """Name -> folder; empty where the package has none."""
+    """Name -> folder, those of single muscles first; empty where the package has none."""
     found = models_folder()
-    folders = sorted(found.iterdir()) if found.is_dir() else []
-    return {folder.name: folder for folder in folders if (folder / MODEL_FILE).is_file()}
+    paths = [path for pattern in ("*", f"{ARM}/*") for path in sorted(found.glob(f"{pattern}/{MODEL_FILE}"))]
+    return {path.parent.relative_to(found).as_posix(): path.parent for path in paths}
 
 
 def find_model(named: str | None, from_sensors: bool = False) -> Path:
@@ -41,7 +44,7 @@ def find_model(named: str | None, from_sensors: bool = False) -> Path:
         fitting = [folder for folder, model in told.items() if _answers(model, from_sensors)]
         if not fitting:
             raise InputError(_NONE)
-        return min(fitting, key=lambda folder: (_ORDER.index(told[folder].muscle), folder.name))
+        return min(fitting, key=lambda folder: _ORDER.index(told[folder].muscle))
     if Path(named).exists() or named not in shipped:
         if not Path(named).exists():
             known = f"; the shipped ones are {', '.join(shipped)}" if shipped else ""
@@ -50,12 +53,18 @@ def find_model(named: str | None, from_sensors: bool = False) -> Path:
     return shipped[named]
 
 
-def shipped_truth(muscle: str) -> MuscleCases:
-    """The cases of a muscle; raises InputError where the package has none."""
-    path = models_folder() / "truth" / f"{muscle}.npz"
-    if not path.is_file():
-        raise InputError(f"this installation has no cases of {muscle} to evaluate on; give the folder of a dataset")
-    return read_truth(path)
+def shipped_truth(muscle: str, nodes: int | None = None) -> MuscleCases:
+    """The cases of a muscle, whose body has that many nodes; raises InputError where the package has none."""
+    folder, sizes = models_folder() / TRUTH, []
+    for path in (folder / f"{muscle}.npz", folder / ARM / f"{muscle}.npz"):
+        if not path.is_file():
+            continue
+        cases = read_truth(path)
+        if nodes in (None, cases.nodes):
+            return cases
+        sizes.append(str(cases.nodes))
+    found = f" with a body of {nodes} nodes, only of {' and '.join(sizes)}" if sizes else ""
+    raise InputError(f"this installation has no cases of {muscle} to evaluate on{found}; give the folder of a dataset")
 
 
 def _answers(model: ModelFile, from_sensors: bool) -> bool:

@@ -1,7 +1,8 @@
 """Whether what is asked lies within what a model was trained on.
 
 from activations   each within the least and the largest of training, the load too
-from sensors       each target position within its node's box of training, widened by a tenth of its diagonal
+from sensors       each target position within its node's box of training, widened by a tenth of its diagonal, and by a
+                   thousandth of the body's length: the box of a node that is clamped is a point
 both               the sensors' residual at most the one of calibration, where the model gives one
 """
 
@@ -17,6 +18,8 @@ from myograph.inference.signature import RESIDUAL, Signature
 
 WIDENED = 0.1
 """Share of a box's diagonal by which it is widened: the next case of the same kind may lie a little beyond."""
+MEASURED = 1e-3
+"""Share of the resting body's length that a measured position may be off."""
 ROUNDING = 1e-6
 """What single precision makes of 1, twenty times over."""
 
@@ -37,7 +40,8 @@ def inside(
         verdict &= _within(question.hand_load, load[0], load[1], ROUNDING * max(1.0, float(abs(load).max())))
     if signature.takes_sensors and len(question.sensor_nodes):
         low, high = body.low[question.sensor_nodes], body.high[question.sensor_nodes]
-        slack = WIDENED * np.linalg.norm(high - low, axis=-1, keepdims=True)
+        length = float(np.linalg.norm(np.ptp(body.rest["position"], axis=0)))
+        slack = WIDENED * np.linalg.norm(high - low, axis=-1, keepdims=True) + MEASURED * length
         verdict &= _within(question.sensor_target["position"], low, high, slack).all(axis=(1, 2))
     if RESIDUAL in outputs and trained.residual_mm is not None:
         verdict &= outputs[RESIDUAL] <= trained.residual_mm

@@ -20,7 +20,7 @@ def draw_heat_maps(
     points: Float[np.ndarray, "nodes 3"],
     quads: Int[np.ndarray, "facets 4"],
     errors: Mapping[str, Float[np.ndarray, " asked"]],
-    label: str = "mean error of a node [mm]",
+    unit: str = "mm",
 ) -> bytes:
     """PNG of errors on the skin of a muscle: a column per method, seen from both sides, all on one colour scale.
 
@@ -29,7 +29,9 @@ def draw_heat_maps(
     points
         Positions of all nodes [mm].
     errors
-        Method -> error of each node [mm]; NaN where a node was not asked, drawn grey.
+        Method -> error of each node; NaN where a node was not asked, drawn grey.
+    unit
+        Of the errors: 'mm' or 'MPa'.
     """
     if not errors:
         raise InputError("heat maps: expected the errors of at least one method, got none")
@@ -46,7 +48,7 @@ def draw_heat_maps(
     scale = _colour_scale(max(float(np.nanmax(values[skin])) for values in errors.values()))
     panels = figure.subplots(2, len(errors), squeeze=False)
     for axes, (method, values) in zip(panels[0], errors.items(), strict=True):
-        axes.set_title(f"{method}\nmean {np.nanmean(values):.2f} mm", color=INK, fontsize=10)
+        axes.set_title(f"{method}\nmean {np.nanmean(values):.2f} {unit}", color=INK, fontsize=10)
     for row, (side, camera), extent in zip(panels, sides.items(), extents, strict=True):
         for axes, values in zip(row, errors.values(), strict=True):
             set_stage(axes, extent)
@@ -54,7 +56,7 @@ def draw_heat_maps(
         row[0].text(-0.08, 0.5, side, rotation=90, va="center", color=INK, fontsize=10, transform=row[0].transAxes)
         draw_scale_bar(row[-1], extent)
     bar = figure.colorbar(scale, ax=panels, shrink=0.5, aspect=28, pad=0.03)
-    bar.set_label(label, color=INK)
+    bar.set_label(f"mean error of a node [{unit}]", color=INK)
     return png(figure)
 
 
@@ -69,7 +71,7 @@ def _equally_wide(extents: list[Float[np.ndarray, "2 2"]]) -> list[Float[np.ndar
 
 
 def _colour_scale(worst: float) -> "ScalarMappable":
-    """Pale yellow for no error, dark red for the worst [mm], grey for NaN."""
+    """Pale yellow for no error, dark red for the worst, grey for NaN."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize

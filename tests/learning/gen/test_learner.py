@@ -131,6 +131,16 @@ def test_one_network_answers_from_sensors_from_activations_or_from_both(sampler,
         assert 2 * mean_error(reading(both, reads), batch) < do_nothing(batch)
 
 
+def test_without_dropout_neither_sensors_nor_activations_may_lack(sampler, strict):
+    config = NetworkConfig(activation_input=True, reads="sensors_and_activation", dropout=0.0)
+    never = GenLearner(config, FEW).fit(sampler, strict)
+    assert (never.signature.unknown_activation, never.signature.least_sensors) == (False, 1)
+    either = GenLearner(KINDS["both"], FEW).fit(sampler, strict)
+    assert (either.signature.unknown_activation, either.signature.least_sensors) == (True, 0)
+    with pytest.raises(InputError, match="train it with dropout"):
+        reading(never, "activation")
+
+
 def test_sensors_or_activations_that_are_not_told_are_those_that_are_not_read(sampler, strict):
     both = GenLearner(KINDS["both"], FEW).fit(sampler, strict)
     batch = sampler.batch(strict.test[:2])

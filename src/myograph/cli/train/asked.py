@@ -41,6 +41,9 @@ class TrainFile(Model):
         A name of `myograph.learning.learners.LEARNERS`.
     options, training
         Settings of the method and of its training.
+    calibration
+        Share of the training cases that teach nothing and calibrate the 90 % intervals, where it is nine or more; 0 for
+        none.
     pairs
         Test pairs of each protocol, at most, drawn at random.
     """
@@ -57,6 +60,7 @@ class TrainFile(Model):
     asked: tuple[str, ...] = ("position",)
     options: dict[str, Any] = Field(default_factory=dict)
     training: dict[str, Any] = Field(default_factory=dict)
+    calibration: float = Field(default=0.15, ge=0, lt=1)
     pairs: int = Field(default=500, ge=1)
 
 

@@ -2,6 +2,7 @@
 
 import csv
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,13 +19,18 @@ if TYPE_CHECKING:
 TRAINING, MODEL = "training", "model"
 
 
-def asked_learner(asked: TrainFile, out: Path, source: str) -> Learner:
-    """The method with its settings; raises InputError for a wrong one, and where torch is not installed."""
+def asked_learner(asked: TrainFile, split: Split, out: Path, source: str) -> Learner:
+    """The method with its settings, calibrated where there are cases enough.
+
+    Raises InputError for a wrong setting, and where torch is not installed.
+    """
     try:
         from myograph.learning.learners import Asked, make_learner
+        from myograph.learning.trust.calibrated import enough
     except ModuleNotFoundError as missing:
         raise MissingPackageError(str(missing.name), "train", "training") from None
-    return make_learner(Asked(asked.method, asked.options, asked.training, out / TRAINING, source))
+    calibration = asked.calibration if enough(split, asked.calibration) else 0.0
+    return make_learner(Asked(asked.method, asked.options, asked.training, out / TRAINING, calibration, source))
 
 
 def fit(learner: Learner, sampler: PairSampler, split: Split, out: Path) -> tuple[Predictor, float]:
@@ -48,7 +54,11 @@ def save(predictor: Predictor, training: "Training", folder: Path) -> Path | Non
     """The folder of the saved model; None for a method that has none."""
     from myograph.learning.saveable import Saveable
     from myograph.learning.saving import save_model
+    from myograph.learning.trust.calibrated import CalibratedPredictor
 
+    if isinstance(predictor, CalibratedPredictor):
+        training = replace(training, half_width_90=predictor.factors, residual_mm=predictor.residual_mm)
+        predictor = predictor.predictor
     if not isinstance(predictor, Saveable):
         return None
     save_model(predictor, training, folder)

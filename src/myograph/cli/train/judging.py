@@ -9,7 +9,7 @@ from myograph.errors import InputError
 from myograph.evaluation import ErrorSummary, evaluate
 from myograph.evaluation.saved import DRAW_SEED, FAIR
 
-FIGURES = ("mean_mm", "rmse_mm", "p95_mm", "max_mm", "relative", "von_mises_mean_mpa")
+FIGURES = ("mean_mm", "rmse_mm", "p95_mm", "max_mm", "relative", "von_mises_mean_mpa", "coverage_90")
 
 
 def judge(

@@ -69,9 +69,9 @@ def train(
 
 def run_training(asked: TrainFile, store: Path, out: Path, source: str) -> Trained | None:
     """Train, judge and save; None in all processes but the first."""
-    learner = asked_learner(asked, out, source)
     cases = read_muscle(store, asked.muscle)
     split = split_pairs(cases, asked.protocol, asked.split_seed)
+    learner = asked_learner(asked, split, out, source)
     sampler = make_sampler(asked, cases)
     claim_folder(out, asked, cases)
     predictor, seconds = fit(learner, sampler, split, out)

@@ -103,11 +103,14 @@ class GenLearner:
 def reading(predictor: TorchPredictor, reads: Reads) -> TorchPredictor:
     """The same network, answering from sensors, from activations, or from both.
 
-    Raises InputError for a predictor that is no graph element network with an activation input.
+    Raises InputError for a predictor that is no graph element network with an activation input, and for one without
+    dropout in its training, which does not answer from one of them alone.
     """
     config, module = predictor.config, predictor.module
     if not isinstance(config, NetworkConfig) or not isinstance(module, MuscleGen) or not config.activation_input:
         raise InputError(f"{predictor.name}: expected a graph element network with an activation input")
+    if not config.dropout and reads != "sensors_and_activation":
+        raise InputError(f"{predictor.name}: it never learned to answer from one alone; train it with dropout")
     other = MuscleGen(config.model_copy(update={"reads": reads}), module.scaling, seed=0)
     other.load_state_dict(module.state_dict())
     signature = _signature(other, predictor.signature)
@@ -115,8 +118,12 @@ def reading(predictor: TorchPredictor, reads: Reads) -> TorchPredictor:
 
 
 def _signature(module: MuscleGen, trained: Signature) -> Signature:
-    """What the module takes and gives, with the sensors and the convention of the training."""
-    either, mean = module.config.reads == "sensors_and_activation", module.config.aggregation == "mean"
+    """What the module takes and gives, with the sensors and the convention of the training.
+
+    Only steps with dropout teach to do without sensors, or without activations.
+    """
+    mean = module.config.aggregation == "mean"
+    either = module.config.reads == "sensors_and_activation" and module.config.dropout > 0
     return Signature(
         inputs=module.inputs,
         outputs=module.outputs,

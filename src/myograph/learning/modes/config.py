@@ -23,6 +23,11 @@ class ModesConfig(Model):
         it, the amount of the leading 'mode' of the positions.
     modes
         Of each field, at most.
+    stress
+        What von Mises stress is answered by: it follows from the six components of 'cauchy_stress', or 'von_mises'
+        has modes of its own, which are a sixth of the numbers.
+    kept
+        How modes are kept: 'float16' halves a saved model and costs a relative 2e-4 of each mode at each node.
     width, members, steps, decay
         The networks from activations to the coordinate: units of each hidden layer, their number, Levenberg-Marquardt
         steps at most, and the weight of the squared parameters.
@@ -40,6 +45,8 @@ class ModesConfig(Model):
     reads: Reads = "activation"
     coordinate: Literal["angle", "mode"] = "angle"
     modes: int = Field(default=32, ge=1)
+    stress: Literal["cauchy_stress", "von_mises"] = "cauchy_stress"
+    kept: Literal["float32", "float16"] = "float32"
     width: int = Field(default=20, ge=1)
     members: int = Field(default=3, ge=1)
     steps: int = Field(default=100, ge=1)

@@ -6,7 +6,7 @@ import torch
 from jaxtyping import Float, Int
 from torch import Tensor, nn
 
-from myograph.learning.modes.chebyshev import products
+from myograph.learning.modes.chebyshev import chebyshev, products
 from myograph.learning.modes.config import FieldShape
 
 
@@ -36,24 +36,30 @@ class FieldModes(nn.Module):
     left_over: Tensor
     misfit: Tensor
 
-    def __init__(self, shape: FieldShape, nodes: int) -> None:
+    def __init__(self, shape: FieldShape, nodes: int, kept: torch.dtype = torch.float32) -> None:
         super().__init__()
         self.shape = shape
         terms = (shape.degrees[0] + 1) * (shape.degrees[1] + 1)
         self.register_buffer("mean", torch.zeros(nodes, shape.components))
-        self.register_buffer("modes", torch.zeros(nodes, shape.components, shape.modes))
-        self.register_buffer("weights", torch.zeros(terms, shape.modes))
+        self.register_buffer("modes", torch.zeros(nodes, shape.components, shape.modes, dtype=kept))
+        self.register_buffer("weights", torch.zeros(terms, shape.modes, dtype=torch.float64))
         self.register_buffer("spread", torch.ones(shape.modes))
         self.register_buffer("left_over", torch.ones(shape.modes))
         self.register_buffer("misfit", torch.zeros(nodes))
 
     def tangent(self, place: Float[Tensor, "batch 2"]) -> Tangent:
         """Amounts and slopes."""
-        return Tangent(*(terms @ self.weights.double() for terms in products(place, self.shape.degrees)))
+        return Tangent(*(terms @ self.weights for terms in products(place, self.shape.degrees)))
+
+    def grid(self, x: Float[Tensor, " first"], u: Float[Tensor, " second"]) -> Float[Tensor, "points modes"]:
+        """Amounts at all places (x, u) of a grid, those of the first x first; no product of all terms is kept."""
+        first, second = chebyshev(x, self.shape.degrees[0])[0], chebyshev(u, self.shape.degrees[1])[0]
+        along_u = second @ self.weights.unflatten(0, (self.shape.degrees[0] + 1, -1))
+        return torch.tensordot(first, along_u, dims=1).flatten(0, 1)
 
     def at(self, nodes: Int[Tensor, " points"]) -> Shapes:
         """Mean and modes at these nodes."""
-        modes = self.modes[nodes].flatten(0, 1)
+        modes = self.modes[nodes].flatten(0, 1).float()
         return Shapes(self.mean[nodes].flatten(), modes, self.misfit[nodes])
 
     def values(self, amounts: Float[Tensor, "batch modes"], shapes: Shapes) -> Float[Tensor, "batch points components"]:

@@ -1,6 +1,7 @@
 """The parts of the module fitted to cases: a field's modes and surface, and the networks to the coordinate."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import torch
@@ -21,11 +22,12 @@ Place = Float[np.ndarray, "cases 2"]
 CASES_AT_ONCE = 64
 
 
-def fit_field(name: str, values: Values, pod: Pod, place: Place) -> FieldModes:
-    """Modes, their surface over the places (x, u), and what neither explains at each node."""
+def fit_field(name: str, values: Values, pod: Pod, place: Place, kept: torch.dtype = torch.float32) -> FieldModes:
+    """Modes as they are kept, their surface over the places (x, u), and what neither explains at each node."""
+    pod = replace(pod, modes=torch.tensor(pod.modes).to(kept).double().numpy())
     surface = fit_surface(place, pod.amounts)
     shape = FieldShape(name=name, components=values.shape[2], modes=len(pod.modes), degrees=surface.degrees)
-    field = FieldModes(shape, values.shape[1])
+    field = FieldModes(shape, values.shape[1], kept)
     amounts = products(torch.tensor(place), surface.degrees)[0].numpy() @ surface.weights
     numbers = {
         "mean": pod.mean.reshape(values.shape[1:]),
@@ -82,5 +84,5 @@ def _mm_per_x(module: ModesModule) -> float:
     """How far nodes go for a unit of x: root mean square over the nodes, at the middle of training."""
     position = module.position
     middle = torch.zeros(1, 2, dtype=torch.float64)
-    slope: Tensor = position.tangent(middle).along_x.float() @ position.modes.flatten(0, 1).T
+    slope: Tensor = position.tangent(middle).along_x.float() @ position.modes.flatten(0, 1).float().T
     return float((3 * slope.square().mean()).sqrt())

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 import numpy as np
+import torch
 from jaxtyping import Float, Int
 
 from myograph.case import MUSCLES
@@ -15,15 +16,13 @@ from myograph.inference.signature import Signature
 from myograph.learning.modes.chebyshev import RANGE
 from myograph.learning.modes.config import BuiltModes, ModesConfig
 from myograph.learning.modes.fitting import fit_angle, fit_field
-from myograph.learning.modes.module import ModesModule
+from myograph.learning.modes.module import KEPT, ModesModule
 from myograph.learning.modes.pod import Pod, proper_modes
 from myograph.learning.torch_predictor import TorchPredictor
 
 LEAST_CASES = 6
 Told = tuple[Float[np.ndarray, "cases inputs"], Float[np.ndarray, " cases"]]
 """Activations and load of the training cases, and their x."""
-DERIVED = {"von_mises": "cauchy_stress"}
-"""Fields that are made of another one."""
 
 
 @dataclass(frozen=True)
@@ -47,16 +46,27 @@ class ModesLearner:
         cases, taught = sampler.cases, split.train.cases
         if len(taught) < LEAST_CASES:
             raise InputError(f"{self.name}: expected at least {LEAST_CASES} training cases, got {len(taught)}")
-        values = {name: _values(cases, name, taught) for name in _names(sampler)}
+        values = {name: _values(cases, name, taught) for name in self._names(sampler)}
         pods = {name: proper_modes(array.reshape(len(taught), -1), self.config.modes) for name, array in values.items()}
         own = MUSCLES.index(cases.muscle)
-        x = _scaled(self._coordinate(cases, taught, pods["position"]))
+        along = self._coordinate(cases, taught, pods["position"])
+        x = _scaled(along)
         place = np.stack([x, RANGE * (2 * cases.activation[taught, own] - 1)], axis=1)
-        fitted = [fit_field(name, array, pods[name], place) for name, array in values.items()]
+        kept = KEPT[self.config.kept]
+        fitted = [fit_field(name, array, pods[name], place, kept) for name, array in values.items()]
         shapes = tuple(modes.shape for modes in fitted)
         module = ModesModule(BuiltModes(settings=self.config, own=own, nodes=cases.nodes, fields=shapes))
         module.fields.update({modes.shape.name: modes for modes in fitted})
+        if self.config.coordinate == "angle":
+            module.angle_range.copy_(torch.tensor([along.min(), along.max()]))
         return module, (np.concatenate([cases.activation[taught], cases.hand_load[taught, None]], axis=1), x)
+
+    def _names(self, sampler: PairSampler) -> list[str]:
+        """Fields that get modes: positions first."""
+        others = {self.config.stress if name == "von_mises" else name for name in sampler.asked} - {"position"}
+        if "cauchy_stress" in others:
+            others.discard("von_mises")
+        return ["position", *sorted(others)]
 
     def _coordinate(self, cases: MuscleCases, taught: Int[np.ndarray, " taught"], pod: Pod) -> np.ndarray:
         if self.config.coordinate == "mode":
@@ -81,7 +91,7 @@ def reading(model: TorchPredictor, sampler: PairSampler, settings: ModesConfig) 
         raise InputError(f"{model.name}: expected neural modes, got the method '{model.method}'")
     if module.angle is None and settings.reads != "sensors":
         raise InputError(f"{model.name}: it learned from sensors only; fit one that reads 'both' first")
-    kept = {name: getattr(module.settings, name) for name in ("width", "members")}
+    kept = {name: getattr(module.settings, name) for name in ("stress", "kept", "width", "members")}
     other = ModesModule(module.built.model_copy(update={"settings": settings.model_copy(update=kept)}))
     state = module.state_dict()
     other.load_state_dict({name: state[name] for name in other.state_dict()})
@@ -102,11 +112,6 @@ def predictor(name: str, module: ModesModule, sampler: PairSampler) -> TorchPred
         unknown_activation=reads == "both",
     )
     return TorchPredictor(name, "modes", module, signature, module.built)
-
-
-def _names(sampler: PairSampler) -> list[str]:
-    others = {DERIVED.get(name, name) for name in sampler.asked} - {"position"}
-    return ["position", *sorted(others)]
 
 
 def _values(cases: MuscleCases, name: str, taught: Int[np.ndarray, " taught"]) -> np.ndarray:

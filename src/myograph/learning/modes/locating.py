@@ -50,7 +50,7 @@ def best_of_grid(moved: Float[Tensor, "batch values"], field: FieldModes, sensor
     """The place of a grid whose shape is nearest to the sensors."""
     x, u = (torch.linspace(-RANGE, RANGE, count, dtype=moved.dtype, device=moved.device) for count in GRID)
     places = torch.cartesian_prod(x, u)
-    shapes = field.tangent(places).amounts @ sensors.modes.T
+    shapes = field.grid(x, u) @ sensors.modes.T
     apart = shapes.square().sum(dim=-1) - 2 * moved @ shapes.T
     return places[apart.argmin(dim=-1)]
 

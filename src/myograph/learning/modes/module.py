@@ -27,15 +27,24 @@ READS = {
     "sensors": ("sensor_position_target", "sensor_nodes"),
     "both": ("activation", "hand_load", "sensor_position_target", "sensor_nodes"),
 }
-DEVIATIONS = {"position": "position_deviation", "cauchy_stress": "von_mises_deviation"}
+DEVIATIONS = {
+    "position": "position_deviation",
+    "cauchy_stress": "von_mises_deviation",
+    "von_mises": "von_mises_deviation",
+}
+KEPT = {"float32": torch.float32, "float16": torch.float16}
 SMALLEST = 1e-6
 """Least standard deviation of x [-]: single precision resolves no less."""
 
 
 class ModesModule(nn.Module):
-    """Blank until `myograph.learning.modes.learner` or saved numbers fill it."""
+    """Blank until `myograph.learning.modes.learner` or saved numbers fill it.
+
+    `angle_range` holds the elbow's angles [rad] at x = -RANGE and x = RANGE; NaN where x is no angle.
+    """
 
     angle_misfit: Tensor
+    angle_range: Tensor
 
     def __init__(self, built: BuiltModes) -> None:
         super().__init__()
@@ -43,10 +52,11 @@ class ModesModule(nn.Module):
         self.built, self.settings = built, settings
         self.inputs: tuple[str, ...] = (*READS[settings.reads], "query_nodes")
         self.outputs = output_names(built)
-        told = settings.reads != "sensors"
+        told, kept = settings.reads != "sensors", KEPT[settings.kept]
         self.angle = AngleNetwork(len(MUSCLES) + 1, settings.width, settings.members) if told else None
-        self.fields = nn.ModuleDict({shape.name: FieldModes(shape, built.nodes) for shape in built.fields})
+        self.fields = nn.ModuleDict({shape.name: FieldModes(shape, built.nodes, kept) for shape in built.fields})
         self.register_buffer("angle_misfit", torch.tensor(SMALLEST))
+        self.register_buffer("angle_range", torch.full((2,), torch.nan, dtype=torch.float64))
 
     @property
     def position(self) -> FieldModes:
@@ -70,11 +80,15 @@ class ModesModule(nn.Module):
     def place(
         self, activation: Float[Tensor, "batch muscles"], hand_load: Float[Tensor, " batch"]
     ) -> tuple[Float[Tensor, "batch 2"], Float[Tensor, " batch"]]:
-        """(x, u) that activations say, and the standard deviation of x."""
+        """(x, u) that activations say, and the standard deviation of x.
+
+        Trap: ONNX exporters leave out the sum with a constant below 1e-8, so that nothing is added to squares of x.
+        """
         assert self.angle is not None
         x, spread = self.angle(activation, hand_load)
         own = RANGE * (2 * activation[:, self.built.own].double() - 1)
-        return torch.stack([x, own], dim=-1), (spread.square() + self.angle_misfit.square()).sqrt()
+        deviation = self.angle_misfit * ((spread / self.angle_misfit).square() + 1).sqrt()
+        return torch.stack([x, own], dim=-1), deviation
 
     def _located(self, parts: Parts) -> tuple[Located, Parts]:
         """Place and covariance, and what sensors say beyond these."""
@@ -138,6 +152,8 @@ def _field(
         squares = [change.square().sum(dim=-1) for change in changes]
     elif name == "cauchy_stress":
         squares = [von_mises_change(values, change).square() for change in changes]
+    elif name == "von_mises":
+        squares = [change[..., 0].square() for change in changes]
     else:
         return answers
     answers[DEVIATIONS[name]] = (squares[0] + squares[1] + shapes.misfit.square()).sqrt()

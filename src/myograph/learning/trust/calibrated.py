@@ -23,6 +23,8 @@ from myograph.learning.trust.conformal import conformal_factor
 from myograph.learning.trust.nearness import Nearness, nearness
 
 BATCH = 32
+LEAST_CASES = 9
+"""Cases of equal weight from which on 90 % can be promised."""
 RESIDUAL_LEVEL = 0.99
 """Share of the calibration cases whose sensor residual is inside."""
 CONSERVATIVE = 1.5
@@ -56,6 +58,11 @@ class CalibratedPredictor:
     def fields(self) -> tuple[str, ...]:
         """What it answers."""
         return self.predictor.fields
+
+    @property
+    def parameters(self) -> int:
+        """Number of trained numbers, where the method says it."""
+        return int(getattr(self.predictor, "parameters", 0))
 
     def predict(self, question: Question) -> Answer:
         """The answer, with intervals and verdict."""
@@ -93,6 +100,11 @@ class CalibratedLearner:
         """Learn and calibrate; raises InputError where too few cases are left for either."""
         rest, held_out = hold_out(sampler.cases, split, self.share, self.seed)
         return calibrate(self.learner.fit(sampler, rest, progress), sampler, rest, held_out, self.seed)
+
+
+def enough(split: Split, share: float) -> bool:
+    """Whether that share of the training cases is enough to calibrate on, as `conformal_factor` needs it."""
+    return round(share * len(split.train.cases)) >= LEAST_CASES
 
 
 def hold_out(cases: MuscleCases, split: Split, share: float, seed: int) -> tuple[Split, Int[np.ndarray, " held_out"]]:

@@ -1,0 +1,193 @@
+"""Make the models that come with the package, of stores of cases of the built-in arm.
+
+    python benchmarks/make_models.py --arm STORE --biceps STORE --truth STORE --arm-truth STORE [--out FOLDER]
+
+    --arm       arm/MUSCLE      all five muscles, with one network for the elbow's angle
+    --biceps    biceps          one muscle, finer; gen-biceps: a graph element network in the convention of the thesis
+    --truth     truth/biceps.npz        cases that the biceps is held against
+    --arm-truth truth/arm/MUSCLE.npz    likewise the arm
+
+Any of them may be left out: what lies there stays. Models are taught by the protocol 'strict' and calibrated on 15 % of
+the training cases, which teach nothing. The truth of the biceps should be of finite elements (simulator 'direct'), with
+cases of the design 'off_grid' and the 32 factorial ones; a truth has the sizes of bodies of the store that teaches.
+Of the truth of the biceps one half of the cases off the grid, drawn at random, becomes the truth that is shipped; with
+--biceps, the other half says how far the angle of its network is off, and how wide its intervals must be, as those who
+ask by activations meet it.
+"""
+
+import argparse
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from myograph.case import MUSCLES
+from myograph.ensemble.muscle_cases import MuscleCases
+from myograph.ensemble.pairs.predictor import Predictor
+from myograph.ensemble.pairs.protocols import FACTORIAL, OFF_GRID, PROTOCOLS, PairSet, Split, split_pairs
+from myograph.ensemble.pairs.question import Answer, Question
+from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
+from myograph.ensemble.store.reading import read_muscle
+from myograph.evaluation import evaluate
+from myograph.evaluation.saved import without_sensors
+from myograph.inference.truth import write_truth
+from myograph.learning.gen.config import NetworkConfig
+from myograph.learning.gen.learner import GenLearner
+from myograph.learning.modes.arm import fit_arm
+from myograph.learning.modes.chebyshev import RANGE
+from myograph.learning.modes.config import ModesConfig
+from myograph.learning.modes.learner import ModesLearner
+from myograph.learning.modes.module import ModesModule
+from myograph.learning.saving import Training, save_model
+from myograph.learning.torch_predictor import TorchPredictor
+from myograph.learning.training import TrainingConfig
+from myograph.learning.trust.calibrated import CalibratedLearner, CalibratedPredictor, calibrate, hold_out
+
+ASKED = ("position", "von_mises")
+ARM = ModesConfig(reads="both", stress="von_mises", kept="float16", modes=16)
+BICEPS = ModesConfig(reads="both", stress="von_mises", kept="float16", modes=20)
+GEN = NetworkConfig.improved().model_copy(update={"latent": 32, "hidden": (32, 32)})
+STEPS = TrainingConfig(steps=4000, queries=128)
+LIMITS = ("Von Mises stress has modes of its own: where there is hardly any, it may come out a little below zero.",)
+FEW = 8
+"""Cases off the grid that the arm is held against."""
+TESTED = 256
+"""Test pairs of each protocol, at most."""
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Make what is asked for."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for what in ("arm", "biceps", "truth", "arm-truth"):
+        parser.add_argument(f"--{what}", type=Path, metavar="STORE")
+    parser.add_argument("--out", type=Path, default=Path("src/myograph/models"))
+    parser.add_argument("--without-gen", action="store_true", help="make no graph element network")
+    asked = parser.parse_args(arguments)
+    torch.set_num_threads(1)
+    if asked.arm:
+        make_arm(asked.arm, asked.out / "arm")
+    if asked.biceps:
+        make_biceps(asked.biceps, asked.truth, asked.out / "biceps")
+        if not asked.without_gen:
+            make_gen(asked.biceps, asked.out / "gen-biceps")
+    if asked.truth:
+        make_truth(asked.truth, "biceps", asked.out / "truth" / "biceps.npz", halved=True)
+    for muscle in MUSCLES if asked.arm_truth else ():
+        make_truth(asked.arm_truth, muscle, asked.out / "truth" / "arm" / f"{muscle}.npz")
+
+
+def make_arm(store: Path, out: Path) -> None:
+    """Five models that share one network for the elbow's angle."""
+    started = time.perf_counter()
+    samplers = {muscle: _sampler(store, muscle) for muscle in MUSCLES}
+    split = split_pairs(samplers[MUSCLES[0]].cases, "strict")
+    rest, held_out = hold_out(samplers[MUSCLES[0]].cases, split, CalibratedLearner.share, 0)
+    found = fit_arm(ModesLearner(ARM), samplers, rest)
+    for muscle, model in found.items():
+        calibrated = calibrate(model, samplers[muscle], rest, held_out)
+        _save(calibrated, samplers[muscle], rest, (time.perf_counter() - started) / len(MUSCLES), out / muscle)
+
+
+def make_biceps(store: Path, truth: Path | None, out: Path) -> None:
+    """Neural modes of one muscle that answer from activations, from sensors, or from both."""
+    sampler, started = _sampler(store, "biceps"), time.perf_counter()
+    split = split_pairs(sampler.cases, "strict")
+    rest, _ = hold_out(sampler.cases, split, CalibratedLearner.share, 0)
+    calibrated = CalibratedLearner(ModesLearner(BICEPS)).fit(sampler, split)
+    if truth is not None:
+        calibrated = _against_truth(calibrated, _sampler(truth, "biceps"))
+    _save(calibrated, sampler, rest, time.perf_counter() - started, out)
+
+
+def make_gen(store: Path, out: Path) -> None:
+    """A graph element network that reads nine sensors, in the convention of the thesis."""
+    cases = read_muscle(store, "biceps")
+    sampler, started = PairSampler(cases, random_sensors(cases.nodes)), time.perf_counter()
+    split = split_pairs(cases, "strict")
+    rest, _ = hold_out(cases, split, CalibratedLearner.share, 0)
+    calibrated = CalibratedLearner(GenLearner(GEN, STEPS, "gen_8_improved")).fit(sampler, split)
+    _save(calibrated, sampler, rest, time.perf_counter() - started, out)
+
+
+def make_truth(store: Path, muscle: str, out: Path, halved: bool = False) -> None:
+    """Half of the cases off the grid and all corners of the cube of activations; or a few off the grid."""
+    cases = read_muscle(store, muscle)
+    chosen = cases.named(OFF_GRID)[:FEW]
+    if halved:
+        chosen = np.concatenate([np.sort(_halves(cases)[1]), cases.named(FACTORIAL)])
+    out.parent.mkdir(parents=True, exist_ok=True)
+    write_truth(out, cases, chosen, ASKED)
+    print(f"{out}: {len(chosen)} cases, {out.stat().st_size / 1e6:.2f} MB")
+
+
+def _halves(cases: MuscleCases) -> tuple[np.ndarray, np.ndarray]:
+    """Cases off the grid that calibrate, and those that are the truth."""
+    shuffled = np.random.default_rng(0).permutation(cases.named(OFF_GRID))
+    return shuffled[: len(shuffled) // 2], shuffled[len(shuffled) // 2 :]
+
+
+@dataclass(frozen=True)
+class _Unsensed:
+    """A model that is not told what sensors see."""
+
+    model: Predictor
+    name: str = "unsensed"
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        return self.model.fields
+
+    def predict(self, question: Question) -> Answer:
+        return self.model.predict(without_sensors(question))
+
+
+def _against_truth(calibrated: CalibratedPredictor, sampler: PairSampler) -> CalibratedPredictor:
+    """The deviation of its angle, and its factors, from cases of the truth that are not shipped."""
+    cases, model = sampler.cases, calibrated.predictor
+    assert isinstance(model, TorchPredictor)
+    assert isinstance(model.module, ModesModule)
+    module, chosen = model.module, _halves(cases)[0]
+    assert module.angle is not None
+    low, high = module.angle_range.tolist()
+    told = (torch.tensor(array[chosen], dtype=torch.float32) for array in (cases.activation, cases.hand_load))
+    with torch.no_grad():
+        missed = module.angle(*told)[0].numpy() - RANGE * (2 * cases.elbow_angle[chosen] - low - high) / (high - low)
+    module.angle_misfit.fill_(float(np.sqrt(np.square(missed).mean())))
+    split = Split("off_grid", PairSet(chosen, chosen), np.zeros((0, 2), dtype=np.int64))
+    return replace(calibrated, factors=calibrate(_Unsensed(model), sampler, split, chosen).factors)
+
+
+def _sampler(store: Path, muscle: str) -> PairSampler:
+    cases = read_muscle(store, muscle)
+    return PairSampler(cases, random_sensors(cases.nodes), "material", asked=ASKED)
+
+
+def _save(model: CalibratedPredictor, sampler: PairSampler, taught: Split, seconds: float, out: Path) -> None:
+    what = "arm" if out.parent.name == "arm" else "biceps"
+    metrics = {}
+    for protocol in PROTOCOLS:
+        test = split_pairs(sampler.cases, protocol).test
+        chosen = test[np.sort(np.random.default_rng(0).permutation(len(test))[:TESTED])]
+        metrics[protocol] = evaluate(model, sampler.batches(chosen)).summary().known_figures()
+    training = Training(
+        sampler.cases,
+        taught,
+        command=f"python benchmarks/make_models.py --{what} STORE",
+        seconds=seconds,
+        metrics=metrics,
+        half_width_90=model.factors,
+        residual_mm=model.residual_mm,
+        limits=LIMITS if "von_mises" in model.fields else (),
+    )
+    save_model(model.predictor, training, out)
+    size = sum(path.stat().st_size for path in out.iterdir())
+    print(f"{out}: {size / 1e6:.2f} MB, {seconds:.0f} s")
+    for protocol, figures in metrics.items():
+        print(f"  {protocol:9}" + "".join(f" {name} {value:.4g}" for name, value in figures.items()))
+
+
+if __name__ == "__main__":
+    main()

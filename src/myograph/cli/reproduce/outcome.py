@@ -1,0 +1,119 @@
+"""What a section's trials found, by row."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from myograph.cli.reproduce.cache import Found
+from myograph.cli.reproduce.data import Data
+from myograph.cli.reproduce.sizes import Size
+from myograph.cli.reproduce.trial import TESTED, Trial
+from myograph.ensemble.pairs.protocols import PROTOCOLS, Protocol
+from myograph.evaluation import ErrorSummary, Figure
+
+Row = dict[str, Any]
+DIGITS = 4
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Trials and what came of each; a trial that could not be made has a reason in their place.
+
+    Parameters
+    ----------
+    found
+        As `trials`; None where there is a reason.
+    left_out
+        Name of a row -> why it is not there.
+    """
+
+    data: Data
+    size: Size
+    trials: Sequence[Trial]
+    found: Sequence[Found | None]
+    left_out: Mapping[str, str]
+
+    @property
+    def names(self) -> list[str]:
+        """Of the rows, in order."""
+        return list(dict.fromkeys(trial.name for trial in self.trials))
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of all trainings [s]."""
+        return sum(found.told["seconds"] for found in self.found if found is not None)
+
+    def of(self, name: str, protocol: Protocol) -> list[Found]:
+        """What was found under a protocol, a seed each."""
+        pairs = zip(self.trials, self.found, strict=True)
+        return [found for trial, found in pairs if found and trial.name == name and protocol in TESTED[trial.teaching]]
+
+    def mean(self, name: str, protocol: Protocol, figure: str = "mean_mm") -> float:
+        """Of a figure over the seeds; NaN where there is none."""
+        values = [found.told["protocols"][protocol].get(figure, np.nan) for found in self.of(name, protocol)]
+        return float(np.mean(values)) if values else float("nan")
+
+    def values(
+        self, names: Sequence[str], protocol: Protocol, figure: str = "mean_mm"
+    ) -> tuple[Float[np.ndarray, " rows"], Float[np.ndarray, " rows"]]:
+        """Means and deviations over the seeds, of several rows."""
+        each = [[f.told["protocols"][protocol].get(figure, np.nan) for f in self.of(name, protocol)] for name in names]
+        return np.array([np.mean(own) for own in each]), np.array([np.std(own) for own in each])
+
+    def array(self, name: str, protocol: Protocol, which: str) -> np.ndarray | None:
+        """An array of the first seed, its name before the protocol; None where there is none."""
+        found = self.of(name, protocol)
+        return found[0].arrays.get(which) if found else None
+
+    def summaries(self) -> dict[str, dict[str, ErrorSummary]]:
+        """Row -> protocol -> the figures that bars are drawn of."""
+        keys = ("mean_mm", "rmse_mm", "p95_mm", "max_mm")
+        return {
+            name: {
+                protocol: ErrorSummary(**{key: self.mean(name, protocol, key) for key in keys})
+                for protocol in PROTOCOLS
+                if np.isfinite(self.mean(name, protocol))
+            }
+            for name in self.names
+        }
+
+
+Figures = Callable[[Outcome], tuple[Figure, ...]]
+
+
+def table_rows(outcome: Outcome) -> list[Row]:
+    """A row for each name and protocol: means over the seeds, and their deviation where there are several."""
+    rows: list[Row] = []
+    for name in outcome.names:
+        if name in outcome.left_out:
+            rows.append({"name": name, "left_out": outcome.left_out[name]})
+            continue
+        for protocol in PROTOCOLS:
+            found = outcome.of(name, protocol)
+            if found:
+                rows.append({"name": name, "protocol": protocol, "seeds": len(found), **_figures(found, protocol)})
+    return rows
+
+
+def _figures(found: Sequence[Found], protocol: Protocol) -> dict[str, float | int]:
+    figures: dict[str, float | int] = {}
+    for key in found[0].told["protocols"][protocol]:
+        values = [own.told["protocols"][protocol][key] for own in found]
+        figures[key] = rounded(float(np.mean(values)))
+        if len(found) > 1 and key in ("mean_mm", "von_mises_mean_mpa"):
+            figures[f"{key}_std"] = rounded(float(np.std(values)))
+    for key in ("taught", "stored", "multiply_adds"):
+        if key in found[0].told:
+            figures[key] = int(found[0].told[key])
+    for key in ("seconds", "predict_ms", "weights_kb", "onnx_kb", "onnx_ms"):
+        if key in found[0].told:
+            figures[key] = rounded(float(np.mean([own.told[key] for own in found])))
+    return figures
+
+
+def rounded(value: float) -> float:
+    """Four significant digits."""
+    return float(f"{value:.{DIGITS}g}")

@@ -1,0 +1,150 @@
+"""The verb `reproduce`, and the same as a function."""
+
+import hashlib
+import json
+import os
+import shlex
+import sys
+from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from myograph.anatomy.load import arm_checksum
+from myograph.anatomy.model import Arm
+from myograph.cli.options import ArmFile, Json, Preset, print_json, read_arm
+from myograph.cli.progress import Steps
+from myograph.cli.reproduce.sizes import reproduction_size
+from myograph.errors import InputError, MissingPackageError
+
+if TYPE_CHECKING:
+    from myograph.cli.reproduce.data import Data, Places
+    from myograph.cli.reproduce.runner import Runner
+    from myograph.cli.reproduce.shelf import Shelf
+
+_NEEDED = ("torch", "sklearn", "matplotlib")
+_VERSIONS = ("myograph", "ngsolve", "torch", "torch-geometric", "scikit-learn", "numpy", "scipy")
+
+Sections = Annotated[
+    list[str] | None,
+    typer.Option(
+        help="Only this section, several times for more: 6.2.1, 6.2.2, 6.2.3, 6.2.4, meshes, sensors, steps, direct, "
+        "convolutions, edge."
+    ),
+]
+
+
+def reproduce(
+    section: Sections = None,
+    preset: Preset = "quick",
+    out: Annotated[Path, typer.Option(help="Folder for simulations, results and the report.")] = Path(
+        "myograph-reproduce"
+    ),
+    store: Annotated[
+        Path | None, typer.Option(help="Store of cases to use instead of simulating: with 'factorial', 'off_grid'.")
+    ] = None,
+    tables: Annotated[Path | None, typer.Option(help="Folder of tables to use instead of solving them.")] = None,
+    arm_file: ArmFile = None,
+    json: Json = False,
+) -> None:
+    """The thesis's experiments, chapter 6, and the questions it left open: from simulation to one report.
+
+    What was simulated, trained or drawn is kept in the folder and used again: a run that was interrupted goes on where
+    it was, and sections made earlier stay in the report.
+    """
+    from myograph.cli.reproduce.data import Places
+
+    result = run_reproduction(read_arm(arm_file), preset, section or [], Places(out, store, tables), Steps())
+    if json:
+        print_json(result)
+        return
+    for name, made in result["sections"].items():
+        typer.echo(f"{name:14} {len(made['rows']):4} rows  {made['seconds']:8.0f} s of training")
+    typer.echo(f"report: {result['report']}")
+
+
+def run_reproduction(arm: Arm, preset: str, sections: list[str], places: "Places", steps: Steps) -> dict[str, Any]:
+    """Make the sections, all where none is named; return what `--json` prints.
+
+    Raises InputError for an unknown section or preset, and for a folder that cannot be used.
+    """
+    from myograph.cli.reproduce.cache import Cache
+    from myograph.cli.reproduce.data import Data
+    from myograph.cli.reproduce.registry import EXPERIMENTS, check_sections
+    from myograph.cli.reproduce.runner import Runner
+    from myograph.cli.reproduce.shelf import REPORT, Shelf
+    from myograph.evaluation.experiments.page import write_chapter
+
+    size, wanted = reproduction_size(preset), check_sections(sections or list(EXPERIMENTS))
+    _check_installed(places)
+    shelf = Shelf(places.out, preset)
+    shelf.prepare()
+    cache = Cache(places.out / "cache")
+    if cache.prepare():
+        steps.console.print("the cache is of another version of myograph: it is made anew")
+    data = Data(arm, preset, size, places, steps)
+    runner, provenance = Runner(data, cache, steps), _provenance(arm, preset)
+    for name in wanted:
+        _make(name, data, runner, shelf)
+        shelf.write_results(provenance)
+        write_chapter(f"Chapter 6 again, preset {preset}", shelf.all(), provenance, places.out / REPORT)
+    made = {name: shelf.get(name) for name in wanted}
+    told = {name: {"rows": list(own.rows), "seconds": own.seconds} for name, own in made.items() if own is not None}
+    return {"sections": told, "report": str(places.out / REPORT)}
+
+
+def _make(name: str, data: "Data", runner: "Runner", shelf: "Shelf") -> None:
+    """One section, unless it lies there already."""
+    from myograph.cli.reproduce.outcome import rounded
+    from myograph.cli.reproduce.registry import EXPERIMENTS
+    from myograph.evaluation.experiments.page import Made
+
+    experiment = EXPERIMENTS[name]
+    trials = experiment.trials(data, data.size)
+    told = [[trial.name for trial in trials], runner.keys(trials)]
+    key = hashlib.sha256(json.dumps(told).encode()).hexdigest()
+    if shelf.get(name, key) is not None:
+        return
+    outcome = runner.run(name, trials)
+    with runner.steps.timed(f"figures of {name}"):
+        figures = experiment.figures(outcome)
+    stores = sorted({store for trial in trials for store in (trial.cases.store, trial.cases.truth) if store})
+    provenance = {
+        "command": f"myograph reproduce --section {name} --preset {data.preset}{_given(data.places)}",
+        "seeds": ", ".join(map(str, sorted({trial.seed for trial in trials}))),
+        "data": ", ".join(f"{store} {data.cases(store).checksum[:16]}" for store in stores),
+    }
+    shelf.put(name, key, Made(experiment.rows(outcome), figures, rounded(outcome.seconds), provenance))
+
+
+def _given(places: "Places") -> str:
+    """Options that name what was not made here."""
+    options = {"--store": places.store, "--tables": places.tables}
+    return "".join(f" {option} {path.name}" for option, path in options.items() if path is not None)
+
+
+def _provenance(arm: Arm, preset: str) -> dict[str, str]:
+    found = []
+    for package in _VERSIONS:
+        try:
+            found.append(f"{package} {version(package)}")
+        except PackageNotFoundError:
+            continue
+    command = shlex.join(["myograph", *(Path(part).name if "/" in part else part for part in sys.argv[1:])])
+    load = f", {os.getloadavg()[0]:.0f} jobs at once as it began" if hasattr(os, "getloadavg") else ""
+    machine = f"{os.cpu_count()} processors{load}"
+    told = {"last command": command, "preset": preset, "arm": arm_checksum(arm), "machine": machine}
+    return {**told, "versions": ", ".join(found)}
+
+
+def _check_installed(places: "Places") -> None:
+    for package in _NEEDED:
+        if find_spec(package) is None:
+            raise MissingPackageError(package, "all", "the reproduction")
+    if places.store is None and places.tables is None and find_spec("ngsolve") is None:
+        raise MissingPackageError("ngsolve", "all", "simulating the cases")
+    for path in (places.store, places.tables):
+        if path is not None and not path.is_dir():
+            raise InputError(f"{path}: expected a folder, found none")

@@ -1,0 +1,59 @@
+"""Results as they lie on disk, and what is said of them in Markdown: docs/results.md is written by this alone."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from myograph.errors import InputError
+from myograph.evaluation.experiments.chapter import SECTIONS, About
+from myograph.evaluation.experiments.columns import Row, cells, known
+from myograph.evaluation.page import duration
+
+Results = Mapping[str, Any]
+"""`sections` (name -> `rows`, `seconds`), `provenance`, and `preset`, as `myograph reproduce` writes them."""
+HEAD = """# Results
+
+Written by `python docs/write_results.py` from [results.json](results.json), which
+`myograph reproduce --preset {preset}` wrote; no number here was typed by hand. How it is made:
+[reproduce.md](reproduce.md). Methods: [baselines.md](baselines.md), [gen.md](gen.md), [modes.md](modes.md). Protocols:
+[pairs.md](pairs.md).
+
+Errors are distances of nodes of the biceps, means over all nodes and test pairs unless a column says otherwise;
+'relative' is the mean error over the mean displacement, which doing nothing misses by 1 (stress: over the mean stress).
+Figures of the thesis are of its own arm: compare relative errors only. A dash: not answered, tested or measured.
+"""
+
+
+def check_results(results: Results) -> None:
+    """Raise InputError for what is no results of this version."""
+    missing = [key for key in ("preset", "sections", "provenance") if key not in results]
+    if missing:
+        raise InputError(f"results: expected {', '.join(missing)}, got none; write them with 'myograph reproduce'")
+
+
+def results_page(results: Results) -> str:
+    """The page in Markdown."""
+    check_results(results)
+    parts = [HEAD.format(preset=results["preset"])]
+    absent = [name for name in SECTIONS if name not in results["sections"]]
+    if absent:
+        parts.append(f"Sections that were not made in this run: {', '.join(absent)}.\n")
+    for name, about in SECTIONS.items():
+        if name in results["sections"]:
+            found = results["sections"][name]
+            parts.append(_section(about, found))
+    parts.append(
+        "## How to do it again\n\n" + "\n".join(f"- {k}: {v}" for k, v in results["provenance"].items()) + "\n"
+    )
+    return "\n".join(parts)
+
+
+def _section(about: About, found: Mapping[str, Any]) -> str:
+    rows: list[Row] = found["rows"]
+    columns = known(rows, about.columns)
+    head = ["method", *(column.heading for column in columns)]
+    lines = [head, ["---"] * len(head), *cells(rows, columns)]
+    table = "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    told = f"{about.question} The thesis: {about.thesis}"
+    made = "; ".join(f"{key} {value}" for key, value in found.get("provenance", {}).items())
+    how = f"{about.ours} Time of all trainings: {duration(found['seconds'])}; {made}."
+    return f"## {about.heading}\n\n{told}\n\n{how}\n\n{table}\n"

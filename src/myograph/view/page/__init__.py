@@ -1,0 +1,24 @@
+"""The living page: an arm of neural modes as one HTML file that opens from disk, with sliders, offline.
+
+source     the models of an arm, and the anatomy that they were made with
+truth      cases of a dataset to compare with
+surface    what is drawn of a body: its skin, refined or thinned
+content    all of it as JSON and one blob of numbers
+template   the built page that these are put into
+"""
+
+from myograph.view.page.content import PageArm, page_content
+from myograph.view.page.source import ArmModels, read_arm_models
+from myograph.view.page.template import filled_page, read_template
+from myograph.view.page.truth import TruthCase, read_truth_cases
+
+__all__ = [
+    "ArmModels",
+    "PageArm",
+    "TruthCase",
+    "filled_page",
+    "page_content",
+    "read_arm_models",
+    "read_template",
+    "read_truth_cases",
+]

@@ -1,0 +1,114 @@
+"""The verb, end to end: a section from a store; from nothing; killed and gone on with."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from myograph.anatomy.load import built_in_arm
+from myograph.cli.progress import Steps
+from myograph.cli.reproduce import run_reproduction
+from myograph.cli.reproduce import runner as running
+from myograph.cli.reproduce.data import Places
+from myograph.cli.reproduce.registry import EXPERIMENTS
+from myograph.cli.reproduce.sections.edge import farthest
+from myograph.errors import InputError, MissingPackageError
+from myograph.evaluation.experiments.chapter import SECTIONS
+
+
+def command(out, *more):
+    return [sys.executable, "-m", "myograph", "reproduce", "--preset", "tiny", "--out", str(out), "--json", *more]
+
+
+def test_every_section_is_told_of_in_the_report():
+    assert list(EXPERIMENTS) == list(SECTIONS)
+
+
+def test_a_section_is_made_from_a_store_and_the_second_run_makes_nothing(store, tmp_path, monkeypatch, here):
+    places = Places(tmp_path / "out", store)
+    result = run_reproduction(built_in_arm(), "tiny", ["meshes"], places, Steps())
+    rows = result["sections"]["meshes"]["rows"]
+    assert {row["protocol"] for row in rows} == {"thesis", "strict", "off_grid"}
+    assert [row["name"] for row in rows[::3]] == [
+        "8 nodes, right", "27 nodes, right", "8 nodes, legacy_sign", "27 nodes, legacy_sign",
+    ]  # fmt: skip
+    assert all(0 < row["mean_mm"] <= row["max_mm"] for row in rows)
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert page.count("data:image/png;base64,") == 1
+    assert json.loads((tmp_path / "out" / "results.json").read_text())["sections"]["meshes"]["rows"] == rows
+    monkeypatch.setattr(running, "side_by_side", lambda *_: pytest.fail("a trial was made again"))
+    again = run_reproduction(built_in_arm(), "tiny", ["meshes"], places, Steps())
+    assert again["sections"] == result["sections"]
+
+
+def test_an_unknown_section_is_named_before_anything_is_made(tmp_path):
+    with pytest.raises(InputError, match=r"section '6\.2\.9': expected one of 6\.2\.1, 6\.2\.2"):
+        run_reproduction(built_in_arm(), "tiny", ["6.2.9"], Places(tmp_path / "out"), Steps())
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_unknown_preset_is_refused(tmp_path):
+    with pytest.raises(InputError, match="unknown preset 'huge'"):
+        run_reproduction(built_in_arm(), "huge", [], Places(tmp_path / "out"), Steps())
+
+
+@pytest.mark.parametrize("missing", ["torch", "sklearn", "matplotlib", "ngsolve"])
+def test_a_missing_package_is_named_before_anything_is_made(missing, tmp_path, monkeypatch):
+    found = "myograph.cli.reproduce.verb.find_spec"
+    monkeypatch.setattr(found, lambda name: None if name == missing else object())
+    with pytest.raises(MissingPackageError, match=f"needs the package '{missing}'"):
+        run_reproduction(built_in_arm(), "tiny", [], Places(tmp_path / "out"), Steps())
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_store_that_is_not_there_is_refused(tmp_path):
+    with pytest.raises(InputError, match="expected a folder, found none"):
+        run_reproduction(built_in_arm(), "tiny", [], Places(tmp_path / "out", tmp_path / "nowhere"), Steps())
+
+
+def test_points_far_apart_come_first():
+    line = np.array([[0.0], [0.1], [0.5], [0.9], [1.0]])
+    assert farthest(line, 3) == [2, 0, 4]
+    assert sorted(farthest(line, 5)) == [0, 1, 2, 3, 4]
+
+
+@pytest.mark.exhaustive
+def test_a_killed_run_goes_on_where_it_was(store, tmp_path):
+    out = tmp_path / "out"
+    asked = command(out, "--section", "sensors", "--store", str(store))
+    run = subprocess.Popen(asked, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    started = time.monotonic()
+    while len(list((out / "cache").glob("*.npz"))) < 3:
+        assert run.poll() is None
+        assert time.monotonic() - started < 120
+        time.sleep(0.05)
+    os.kill(run.pid, signal.SIGKILL)
+    run.wait()
+    before = {path.name: path.stat().st_mtime_ns for path in (out / "cache").glob("*.npz")}
+    assert not (out / "report.html").exists()
+    done = subprocess.run(asked, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    after = {path.name: path.stat().st_mtime_ns for path in (out / "cache").glob("*.npz")}
+    assert before.items() <= after.items()
+    assert len(after) > len(before)
+    assert (out / "report.html").exists()
+    assert not list(out.rglob(".*"))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("section", list(EXPERIMENTS))
+def test_a_section_is_made_from_nothing(section, tmp_path_factory):
+    out = tmp_path_factory.getbasetemp() / "from-nothing"
+    done = subprocess.run(command(out, "--section", section), capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    result = json.loads(done.stdout)
+    assert set(result) == {"sections", "report"}
+    assert set(result["sections"]) == {section}
+    assert set(result["sections"][section]) == {"rows", "seconds"}
+    assert {row["protocol"] for row in result["sections"][section]["rows"]} == {"thesis", "strict", "off_grid"}
+    assert SECTIONS[section].heading in (out / "report.html").read_text()

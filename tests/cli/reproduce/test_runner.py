@@ -1,0 +1,118 @@
+"""Trials are made once, errors keep what is finished, and a missing package leaves a row with its reason."""
+
+import numpy as np
+import pytest
+
+from myograph.cli.progress import Steps
+from myograph.cli.reproduce import runner as running
+from myograph.cli.reproduce.cache import Cache
+from myograph.cli.reproduce.experiment import corners, taught_twice
+from myograph.cli.reproduce.outcome import table_rows
+from myograph.cli.reproduce.runner import Runner
+from myograph.cli.reproduce.trial import Chosen, Trial
+from myograph.cli.reproduce.trying import cases_of, run_trial, split_of
+from myograph.errors import InputError, MissingPackageError
+
+
+@pytest.fixture
+def runner(data, tmp_path):
+    cache = Cache(tmp_path / "cache")
+    cache.prepare()
+    return Runner(data, cache, Steps())
+
+
+def plain(data, *methods):
+    return [trial for method in methods for trial in taught_twice(method, method, corners(data), data.size)]
+
+
+def test_a_trial_is_made_once(runner, data, here):
+    first = table_rows(runner.run("a", plain(data, "do_nothing", "affine")))
+    assert here == ["do_nothing", "do_nothing", "affine", "affine"]
+    second = table_rows(runner.run("b", plain(data, "affine", "do_nothing")))
+    assert len(here) == 4
+    assert sorted(first, key=str) == sorted(second, key=str)
+
+
+def test_every_row_has_all_protocols_and_doing_nothing_has_relative_error_1(runner, data, here):
+    rows = table_rows(runner.run("a", plain(data, "do_nothing")))
+    assert [row["protocol"] for row in rows] == ["thesis", "strict", "off_grid"]
+    assert [row["relative"] for row in rows] == pytest.approx([1, 1, 1], rel=1e-3)
+    assert all(row["mean_mm"] <= row["rmse_mm"] <= row["max_mm"] for row in rows)
+
+
+def test_an_error_keeps_what_is_finished(runner, data, here, monkeypatch):
+    good = running.try_and_keep
+
+    def failing(trial, *rest):
+        if trial.method == "affine":
+            raise InputError("cannot be written (No space left on device)")
+        return good(trial, *rest)
+
+    monkeypatch.setattr(running, "try_and_keep", failing)
+    with pytest.raises(InputError, match="No space left"):
+        runner.run("a", plain(data, "do_nothing", "affine"))
+    monkeypatch.setattr(running, "try_and_keep", good)
+    here.clear()
+    assert runner.run("a", plain(data, "do_nothing", "affine")).left_out == {}
+    assert here == ["affine", "affine"]
+
+
+def test_a_missing_package_leaves_a_row_with_its_reason(runner, data, here, monkeypatch):
+    def missing(*_):
+        raise MissingPackageError("torch-geometric", "train", "the processor 'GCNConv'")
+
+    monkeypatch.setattr("myograph.cli.reproduce.trying.run_trial", missing)
+    rows = table_rows(runner.run("a", plain(data, "affine")))
+    assert len(rows) == 1
+    assert rows[0]["name"] == "affine"
+    assert "needs the package 'torch-geometric'" in rows[0]["left_out"]
+    monkeypatch.undo()
+
+
+def test_seeds_become_a_mean_and_a_deviation(runner, data, here):
+    trials = taught_twice("affine", "affine", corners(data), data.size, seeds=3)
+    outcome = runner.run("a", trials)
+    row = table_rows(outcome)[1]
+    each = [found.told["protocols"]["strict"]["mean_mm"] for found in outcome.of("affine", "strict")]
+    assert row["seeds"] == 3
+    assert row["mean_mm"] == pytest.approx(np.mean(each), rel=1e-3)
+    assert row["mean_mm_std"] == pytest.approx(np.std(each), rel=1e-3)
+
+
+def test_another_store_can_hold_the_truth(data, store):
+    numbers, inside = data.numbers("ensemble", "factorial"), data.numbers("ensemble", "off_grid")
+    asked = Trial("a", "affine", Chosen("ensemble", numbers, inside, truth="again"), "off_grid")
+    cases = cases_of(asked.cases, {"ensemble": store, "again": store})
+    half = len(numbers) + len(inside)
+    assert len(cases) == 2 * half
+    for protocol in ("thesis", "strict", "off_grid"):
+        split = split_of(asked, cases, protocol)
+        assert split.train.cases.max() < half <= split.test.min()
+    alone = Trial("a", "affine", Chosen("ensemble", numbers, inside), "off_grid")
+    same = [run_trial(trial, {"ensemble": store, "again": store}).told["protocols"] for trial in (asked, alone)]
+    assert same[0] == same[1]
+
+
+def test_a_graph_keeps_its_nodes_and_its_curve(data, store):
+    trials = taught_twice("gen", "gen", corners(data), data.size, training={"steps": 12})
+    found = run_trial(trials[0], {"ensemble": store})
+    assert found.arrays["nodes_before"].shape == found.arrays["nodes_after"].shape == (8, 3)
+    assert found.arrays["curve"].shape == (2, 12)
+    assert set(found.told["protocols"]) == {"thesis", "off_grid"}
+    nodes = found.arrays["node_mm_thesis"]
+    assert np.isnan(nodes).sum() == 9
+    assert np.nanmean(nodes) == pytest.approx(found.told["protocols"]["thesis"]["mean_mm"], rel=1e-5)
+    distance, error = found.arrays["far_off_grid"]
+    assert (distance > 0).all()
+    assert error.mean() == pytest.approx(found.told["protocols"]["off_grid"]["mean_mm"], rel=1e-5)
+
+
+@pytest.mark.exhaustive
+def test_a_weighed_model_says_its_size_and_its_multiplications(data, store):
+    options = {"latent": 4, "hidden": (4,)}
+    asked = taught_twice("g", "gen", corners(data), data.size, options=options, training={"steps": 3}, weighed=True)
+    told = run_trial(asked[0], {"ensemble": store}).told
+    assert told["weights_kb"] == pytest.approx(told["stored"] * 4 / 1000, rel=0.05)
+    assert told["onnx_kb"] > 0
+    assert told["onnx_ms"] > 0
+    assert told["multiply_adds"] > 0

@@ -1,0 +1,49 @@
+"""Results in Markdown; docs/results.md says what docs/results.json says."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from myograph.errors import InputError
+from myograph.evaluation.experiments.chapter import SECTIONS, about
+from myograph.evaluation.experiments.results import results_page
+
+DOCS = Path(__file__).parents[3] / "docs"
+RESULTS = {
+    "preset": "tiny",
+    "provenance": {"versions": "numpy 2"},
+    "sections": {
+        "6.2.2": {
+            "rows": [{"name": "a", "protocol": "strict", "mean_mm": 1.5}],
+            "seconds": 61.0,
+            "provenance": {"seeds": "0"},
+        }
+    },
+}
+
+
+def test_a_section_becomes_a_table():
+    page = results_page(RESULTS)
+    assert "## 6.2.2 Learning the direction vector" in page
+    assert "| method | strict, mm |\n| --- | --- |\n| a | 1.5 |" in page
+    assert "`myograph reproduce --preset tiny`" in page
+    assert "Time of all trainings: 61 s; seeds 0." in page
+    assert "## Mesh size" not in page
+    assert "not made in this run: 6.2.1, 6.2.3" in page
+
+
+def test_results_of_something_else_are_refused():
+    with pytest.raises(InputError, match="expected sections, got none"):
+        results_page({"preset": "tiny", "provenance": {}})
+
+
+def test_an_unknown_section_is_refused():
+    with pytest.raises(InputError, match=r"section '6\.2\.9': expected one of 6\.2\.1"):
+        about("6.2.9")
+
+
+def test_the_page_of_results_says_what_the_results_say():
+    results = json.loads((DOCS / "results.json").read_text())
+    assert (DOCS / "results.md").read_text() == results_page(results), "run python docs/write_results.py"
+    assert set(results["sections"]) <= set(SECTIONS)
