@@ -54,6 +54,7 @@ def test_a_table_is_built_to_its_tolerance_and_its_errors_are_told(finite_elemen
     assert told["tables"]["anconeus"] == row
 
 
+@pytest.mark.exhaustive
 def test_tolerances_that_few_states_cannot_meet_are_no_failure_but_are_told(finite_elements):
     """With the states that the test before has solved, where it ran."""
     done = _table(

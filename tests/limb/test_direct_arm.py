@@ -56,6 +56,7 @@ def test_all_moments_cancel_at_the_answer(arm):
     )
 
 
+@pytest.mark.exhaustive
 def test_a_guess_does_not_change_the_answer(arm):
     case = Case((0.1, 0.2, 0.3, 0.1, 0.1), hand_load=10.0)
     guessing = DirectArm(built_in_arm(), "tiny", guess=lambda _: radians(75))

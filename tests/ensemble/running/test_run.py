@@ -83,6 +83,7 @@ def test_running_again_asks_only_for_what_is_missing(make, tmp_path):
     assert (tmp_path / "asked").read_text() == f"{number_of(store, 7)}\n"
 
 
+@pytest.mark.exhaustive
 def test_a_lost_dask_worker_is_replaced_and_its_cases_are_not_lost(make):
     """Real worker processes behind a scheduler's address; one is killed while it works."""
     store, peaceful = (make(name, count=60, preset="sleep=0.03") for name in ("store", "peaceful"))

@@ -30,6 +30,7 @@ def made(tmp_path_factory):
     return folder, table, heard
 
 
+@pytest.mark.exhaustive
 def test_the_biceps_between_its_states_is_what_finite_elements_find_there(made):
     """Means over states that chance has chosen; the moment goes up to 28 N·m."""
     _, table, heard = made
