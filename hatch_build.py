@@ -10,21 +10,24 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-TEMPLATE = Path("src/myograph/view/page/template.html")
+FOLDER = Path("src/myograph/view/page")
+BUILT = (FOLDER / "template.html", FOLDER / "runtime.html")
+"""The page, and what a page with a network needs besides."""
 STEPS = (("ci", "--no-audit", "--no-fund"), ("run", "build"))
 SECONDS = 600
 
 
 class BuildPage(BuildHookInterface):
-    """Makes the template and puts it into the wheel, though git ignores it."""
+    """Makes the page's files and puts them into the wheel, though git ignores them."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Build where that is needed and possible."""
         root = Path(self.root)
         if not _fresh(root):
             self._build(root)
-        if (root / TEMPLATE).is_file():
-            build_data["artifacts"].append(f"/{TEMPLATE.as_posix()}")
+        for path in BUILT:
+            if (root / path).is_file():
+                build_data["artifacts"].append(f"/{path.as_posix()}")
 
     def _build(self, root: Path) -> None:
         npm = shutil.which("npm")
@@ -39,11 +42,12 @@ class BuildPage(BuildHookInterface):
 
 
 def _fresh(root: Path) -> bool:
-    template, web = root / TEMPLATE, root / "web"
-    if not template.is_file():
+    web = root / "web"
+    if not all((root / path).is_file() for path in BUILT):
         return False
-    sources = [web / "index.html", *web.glob("*.json"), *web.glob("*.ts"), *(web / "src").glob("*")]
-    return all(path.stat().st_mtime <= template.stat().st_mtime for path in sources if path.is_file())
+    built = min((root / path).stat().st_mtime for path in BUILT)
+    sources = [web / "index.html", *web.glob("*.json"), *web.glob("*.ts"), *web.glob("*.mjs"), *(web / "src").rglob("*")]
+    return all(path.stat().st_mtime <= built for path in sources if path.is_file())
 
 
 def get_build_hook() -> type[BuildHookInterface]:

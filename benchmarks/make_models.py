@@ -32,7 +32,7 @@ from myograph.ensemble.pairs.question import Answer, Question
 from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
 from myograph.ensemble.store.reading import read_muscle
 from myograph.evaluation import evaluate
-from myograph.evaluation.saved import without_sensors
+from myograph.inference.ways import without_sensors
 from myograph.inference.truth import write_truth
 from myograph.learning.gen.config import NetworkConfig
 from myograph.learning.gen.learner import GenLearner

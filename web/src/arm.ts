@@ -3,12 +3,15 @@
 import { AngleNetwork } from "./angle";
 import { Blob64, type PackedTruth, type PageData } from "./data";
 import { Muscle } from "./muscle";
+import type { Network } from "./network/network";
 import { Surface, normalsOf } from "./surface";
 
 /** What is drawn of a muscle; the arrays stay the same, their numbers change. */
 export interface Drawn {
   muscle: Muscle;
   surface: Surface;
+  /** Positions of the nodes that are drawn: of the modes, or of the network. */
+  shape: Float32Array;
   position: Float32Array;
   normal: Float32Array;
   value: Float32Array;
@@ -16,6 +19,8 @@ export interface Drawn {
 }
 
 const ENOUGH = 1e-6;
+/** The field that only a network makes. */
+export const DIFFERENCE = "difference";
 
 export class Arm {
   readonly drawn: Drawn[];
@@ -25,6 +30,9 @@ export class Arm {
   x = 0;
   field = "muscle";
   truth: PackedTruth | null = null;
+  network: Network | null = null;
+  /** Whether the network's muscle is drawn as the network says. */
+  networkDrawn = false;
   /** Of the last prediction, with surfaces and normals [ms]. */
   milliseconds = 0;
 
@@ -36,7 +44,7 @@ export class Arm {
       muscle.body = number;
       const surface = new Surface(told, blob);
       const array = (components: number) => new Float32Array(components * surface.vertices);
-      return { muscle, surface, position: array(3), normal: array(3), value: array(1), known: false };
+      return { muscle, surface, shape: muscle.position, position: array(3), normal: array(3), value: array(1), known: false };
     });
   }
 
@@ -51,17 +59,44 @@ export class Arm {
       const { muscle, surface } = drawn;
       const u = this.data.angle.range * (2 * this.activation[muscle.told.own]! - 1);
       muscle.move({ x, u, xDeviation: deviation, uDeviation: muscle.told.own_deviation });
-      surface.carry(muscle.position, 3, drawn.position);
-      normalsOf(drawn.position, surface.triangles, drawn.normal);
+      this.form(drawn);
       this.paint(drawn);
     }
     this.milliseconds = performance.now() - started;
+    this.askNetwork();
+  }
+
+  /** Draw the network's muscle as the network says, or as the modes do. */
+  drawNetwork(on: boolean): void {
+    this.networkDrawn = on;
+    this.askNetwork();
+    this.answered();
+  }
+
+  /** The network has said something new. */
+  answered(): void {
+    const drawn = this.network && this.drawn[this.network.told.body]!;
+    if (!drawn) return;
+    this.form(drawn);
+    this.paint(drawn);
+  }
+
+  /** Whether what is shown needs the network. */
+  get needsNetwork(): boolean {
+    return this.network !== null && (this.networkDrawn || this.field === DIFFERENCE);
+  }
+
+  /** A field at the nodes of a body [its unit]; null where there is none. */
+  values(drawn: Drawn, key: string): Float32Array | null {
+    if (key === DIFFERENCE) return drawn === this.drawn[this.network?.told.body ?? -1] ? this.network!.difference : null;
+    return drawn.muscle.values(key, this.truth);
   }
 
   /** Colour by another field; positions stay. */
   show(field: string, truth: PackedTruth | null): void {
     this.field = field;
     this.truth = truth;
+    this.askNetwork();
     this.drawn.forEach((drawn) => this.paint(drawn));
   }
 
@@ -83,11 +118,30 @@ export class Arm {
     if (this.load < load[0] - slack || this.load > load[1] + slack) {
       words.push(`load ${this.load.toFixed(1)} N (trained ${range(load)} N)`);
     }
+    if (this.needsNetwork && this.network!.outside) words.push("sensors of the network");
     return words;
   }
 
+  /** Where the sensors of the network are does not need the network. */
+  private askNetwork(): void {
+    const { network } = this;
+    if (!network) return;
+    const { muscle } = this.drawn[network.told.body]!;
+    network.move(muscle.place);
+    if (!this.needsNetwork) return;
+    network.ask({ activation: this.activation, load: this.load, modes: muscle.position });
+  }
+
+  private form(drawn: Drawn): void {
+    const { muscle, surface } = drawn;
+    const answer = drawn === this.drawn[this.network?.told.body ?? -1] && this.networkDrawn ? this.network!.position : null;
+    drawn.shape = answer ?? muscle.position;
+    surface.carry(drawn.shape, 3, drawn.position);
+    normalsOf(drawn.position, surface.triangles, drawn.normal);
+  }
+
   private paint(drawn: Drawn): void {
-    const values = this.field === "muscle" ? null : drawn.muscle.values(this.field, this.truth);
+    const values = this.field === "muscle" ? null : this.values(drawn, this.field);
     drawn.known = values !== null;
     if (values) drawn.surface.carry(values, 1, drawn.value);
   }

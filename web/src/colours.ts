@@ -2,7 +2,7 @@
 
 const VIRIDIS = "440154 482173 433e85 38588c 2d708e 25858e 1e9b8a 2ab07f 52c569 86d549 c2df23 fde725";
 const CIVIDIS = "00224e 0f2f6b 35456c 4d566d 626871 777a78 8e8d7a a69f76 bfb36b d9c95a f4df4a fee838";
-export const UNSURE = new Set(["deviation", "stress_deviation", "error", "stress_error"]);
+export const UNSURE = new Set(["deviation", "stress_deviation", "error", "stress_error", "difference"]);
 export const ENTRIES = 256;
 
 /** Red, green, blue and 255 for each of 256 steps. */

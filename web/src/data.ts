@@ -84,6 +84,32 @@ export interface PackedTruth {
   bodies: ({ position: Packed; von_mises: Packed | null } | null)[];
 }
 
+/** A network that is asked at the nodes of one body; see `network/network.ts`. */
+export interface PackedNetwork {
+  name: string;
+  muscle: string;
+  body: number;
+  inputs: string[];
+  /** The network, base64. */
+  model: string;
+  /** Inputs that stay the same. */
+  still: Record<string, Packed>;
+  /** Positions of its sensors, as a field of the muscle's place. */
+  sensors: PackedField;
+  /** Where each sensor was in training [mm]. */
+  low: Packed;
+  high: Packed;
+  /** Nodes of a graph element network, in the space of the relaxed arm; null for another kind. */
+  nodes: Packed | null;
+}
+
+/** How long a solver takes for one state. */
+export interface SolveTime {
+  seconds: number;
+  what: string;
+  told: string;
+}
+
 export interface PageData {
   schema: number;
   title: string;
@@ -99,6 +125,8 @@ export interface PageData {
   presets: { name: string; activation: number[]; hand_load: number }[];
   truth: PackedTruth[];
   movement: { name: string; times: number[]; activation: Packed } | null;
+  network: PackedNetwork | null;
+  solve: SolveTime | null;
   about: Record<string, string>;
   notes: string[];
 }

@@ -1,9 +1,10 @@
 // What the colours mean: names of the muscles, or a bar with numbers and a unit.
 
-import type { Arm } from "./arm";
+import { type Arm, DIFFERENCE } from "./arm";
 import { lookupTable, written } from "./colours";
 import type { FieldChoice } from "./data";
 import { make } from "./dom";
+import { sentence } from "./network/panel";
 
 export function showLegend(place: HTMLElement, arm: Arm, field: FieldChoice): void {
   if (field.key === "muscle") {
@@ -13,7 +14,10 @@ export function showLegend(place: HTMLElement, arm: Arm, field: FieldChoice): vo
     return;
   }
   if (!arm.drawn.some((drawn) => drawn.known)) {
-    place.replaceChildren(make("p", {}, `${field.label}: known at the cases of the truth only; choose one of them.`));
+    const { network } = arm;
+    const why = field.key === DIFFERENCE && network
+      ? network.problem || sentence(network) : "known at the cases of the truth only; choose one of them.";
+    place.replaceChildren(make("p", {}, `${field.label}: ${why}`));
     return;
   }
   const middle = (field.low + field.high) / 2;

@@ -16,7 +16,7 @@ export class Muscle {
   readonly fields: Record<string, Field>;
   private readonly change: Float32Array;
   private readonly restChange: Float32Array;
-  private place: Place = { x: 0, u: 0, xDeviation: 0, uDeviation: 0 };
+  place: Place = { x: 0, u: 0, xDeviation: 0, uDeviation: 0 };
 
   constructor(readonly told: PackedBody, private readonly blob: Blob64) {
     this.name = told.name;

@@ -1,15 +1,19 @@
 // Everything together: what people do changes the arm, and the arm changes what they see.
 
-import { Arm } from "./arm";
+import { Arm, DIFFERENCE } from "./arm";
 import { lookupTable, channels } from "./colours";
 import type { Blob64, FieldChoice, PageData } from "./data";
 import { button, check, choice, found, make, section } from "./dom";
 import { showLegend } from "./legend";
+import { pageEngine } from "./network/engine";
+import { Network } from "./network/network";
+import { type Drawer, type NetworkPanel, makeNetworkPanel } from "./network/panel";
 import { showPicked } from "./picked";
 import { type Player, makePlayer } from "./player";
 import { type Part, download, glb, stl } from "./saving";
 import { type Pick, View } from "./scene";
 import { type Sliders, makeSliders } from "./sliders";
+import { showTimes } from "./times";
 
 export class Page {
   readonly arm: Arm;
@@ -18,12 +22,14 @@ export class Page {
   private readonly player: Player | null;
   private readonly cases: HTMLSelectElement | null;
   private readonly fields: HTMLSelectElement;
+  private readonly networkPanel: NetworkPanel | null;
   private readonly angle = make("output", { class: "angle" });
   private picked: Pick | null = null;
   private ghost = true;
 
   constructor(private readonly data: PageData, blob: Blob64, context: WebGL2RenderingContext) {
     this.arm = new Arm(data, blob);
+    this.arm.network = data.network && new Network(data.network, blob, pageEngine(document), () => this.heard());
     this.arm.predict(data.muscles.map(() => 0), 0);
     this.view = new View(context, this.arm, blob);
     this.sliders = makeSliders(data, (activation, load) => {
@@ -35,6 +41,9 @@ export class Page {
     const named: [string, string][] = data.truth.map((truth, i) => [String(i), truth.name]);
     this.cases = named.length ? choice("case of the truth", [["", "none"], ...named], (value) => this.compare(value)) : null;
     this.fields = choice("colour", data.fields.map((field) => [field.key, field.label]), (key) => this.show(key));
+    const { network } = this.arm;
+    this.networkPanel = network && makeNetworkPanel(
+      network, this.arm.drawn[network.told.body]!.muscle.name, (by) => this.drawBy(by), (points) => this.view.points(points));
     this.build();
     this.listen();
     this.show(data.fields[0]!.key);
@@ -61,6 +70,14 @@ export class Page {
     this.refresh();
   }
 
+  /** Draw the network's muscle as the modes or as the network say. */
+  drawBy(by: Drawer): void {
+    this.arm.drawNetwork(by !== "modes");
+    if (by === "difference") this.show(DIFFERENCE);
+    else if (this.arm.field === DIFFERENCE) this.show(this.data.fields[0]!.key);
+    else this.refresh();
+  }
+
   /** Compare with this case of the truth, by its number; none for an empty word. */
   compare(number: string): void {
     const truth = this.data.truth[Number(number)];
@@ -77,6 +94,11 @@ export class Page {
   pick(pick: Pick | null): void {
     this.picked = pick;
     this.view.mark(pick);
+    this.refresh();
+  }
+
+  private heard(): void {
+    this.arm.answered();
     this.refresh();
   }
 
@@ -99,13 +121,14 @@ export class Page {
     this.view.update();
     const field = this.data.fields.find((each) => each.key === this.arm.field) as FieldChoice;
     showLegend(found("legend"), this.arm, field);
+    this.networkPanel?.update(this.arm);
     showPicked(found("picked"), this.arm, this.picked, () => this.pick(null));
     const angle = this.arm.angleDegrees;
     this.angle.textContent = angle === null ? "unknown" : `${angle.toFixed(1)}°`;
     const number = this.data.truth.indexOf(this.arm.truth!);
     const truth = number >= 0 ? this.data.truth[number]!.elbow_angle_deg : null;
     if (truth !== null) this.angle.textContent += ` (FE ${truth.toFixed(1)}°)`;
-    found("time").textContent = `prediction ${this.arm.milliseconds.toFixed(1)} ms`;
+    showTimes(found("readout"), this.arm);
     const outside = this.arm.outside;
     found("badge").hidden = outside.length === 0;
     found("badge").textContent = outside.length ? `Outside what the model was trained on: ${outside.join(", ")}. Do not rely on it.` : "";
@@ -121,6 +144,7 @@ export class Page {
       section("Presets", make("div", { class: "buttons" }, ...presets)),
       section("Colour", this.fields),
     );
+    if (this.networkPanel) panel.append(this.networkPanel.element);
     if (this.cases) {
       const ghost = check("ghost of the truth", (on) => {
         this.ghost = on;

@@ -9,6 +9,7 @@ import type { Arm, Drawn } from "./arm";
 import { lookupTable } from "./colours";
 import type { Blob64, PageData } from "./data";
 import { makeMaterial, tableTexture } from "./material";
+import type { Points } from "./network/panel";
 
 /** A node that was clicked. */
 export interface Pick {
@@ -16,7 +17,8 @@ export interface Pick {
   node: number;
 }
 
-const SENSOR_RADIUS = 2.4;
+const SENSOR_RADIUS = 2.4, GRAPH_RADIUS = 4.5;
+const GRAPH_COLOUR = 0x6a3dff;
 
 export class View {
   private readonly canvas: HTMLCanvasElement;
@@ -29,6 +31,8 @@ export class View {
   private readonly ghosts: Mesh<BufferGeometry, ShaderMaterial>[];
   private readonly forearm = new Group();
   private readonly dots = new Group();
+  private readonly networkSensors = new Group();
+  private readonly graph = new Group();
   private readonly marker: Mesh;
   private waiting = false;
   private readonly centre = new Vector3();
@@ -45,9 +49,10 @@ export class View {
     this.table = tableTexture();
     this.meshes = arm.drawn.map((drawn) => this.muscleMesh(drawn, blob));
     this.ghosts = arm.drawn.map((drawn) => this.ghostMesh(drawn));
-    this.scene.add(...this.meshes, ...this.ghosts, this.forearm, this.dots);
+    this.scene.add(...this.meshes, ...this.ghosts, this.forearm, this.dots, this.networkSensors, this.graph);
     this.addBones(arm.data, blob);
     this.addSensors();
+    this.addNetwork();
     this.marker = new Mesh(new SphereGeometry(3), new MeshBasicMaterial({ color: 0xb3005e, depthTest: false }));
     this.marker.visible = false;
     this.marker.renderOrder = 3;
@@ -99,6 +104,13 @@ export class View {
     this.draw();
   }
 
+  /** Sensors of the network, which follow the muscle, and the nodes of its graph, which stay. */
+  points(shown: Points): void {
+    this.networkSensors.visible = shown.sensors;
+    this.graph.visible = shown.nodes;
+    this.draw();
+  }
+
   /** Mark a node, or none. */
   mark(pick: Pick | null): void {
     this.marker.visible = pick !== null;
@@ -116,7 +128,7 @@ export class View {
     const hit = ray.intersectObjects(this.meshes, false)[0];
     if (!hit) return null;
     const body = this.meshes.indexOf(hit.object as (typeof this.meshes)[number]);
-    return { body, node: nearest(this.arm.drawn[body]!.muscle.position, hit.point) };
+    return { body, node: nearest(this.arm.drawn[body]!.shape, hit.point) };
   }
 
   /** Look at the arm from the side, walking `turn` [rad] from there to the front. */
@@ -215,9 +227,26 @@ export class View {
     this.dots.visible = false;
   }
 
+  private addNetwork(): void {
+    const { network } = this.arm;
+    const add = (group: Group, count: number, shape: BufferGeometry, color: number) => {
+      const paint = new MeshBasicMaterial({ color, depthTest: false });
+      for (let i = 0; i < count; i++) {
+        const dot = new Mesh(shape, paint);
+        dot.renderOrder = 2;
+        group.add(dot);
+      }
+      group.visible = false;
+    };
+    add(this.networkSensors, (network?.sensors.length ?? 0) / 3, new SphereGeometry(SENSOR_RADIUS, 12, 8), 0x000000);
+    add(this.graph, (network?.nodes?.length ?? 0) / 3, new OctahedronGeometry(GRAPH_RADIUS), GRAPH_COLOUR);
+    this.graph.children.forEach((dot, i) => dot.position.fromArray(network!.nodes!, 3 * i));
+  }
+
   private moveDots(): void {
+    this.networkSensors.children.forEach((dot, i) => dot.position.fromArray(this.arm.network!.sensors, 3 * i));
     const put = (mesh: { position: Vector3 }, { body, node }: Pick) =>
-      mesh.position.fromArray(this.arm.drawn[body]!.muscle.position, 3 * node);
+      mesh.position.fromArray(this.arm.drawn[body]!.shape, 3 * node);
     for (const dot of this.dots.children) put(dot, dot.userData as Pick);
     const pick = this.marker.userData["pick"] as Pick | null | undefined;
     if (pick) put(this.marker, pick);

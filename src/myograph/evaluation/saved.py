@@ -4,7 +4,7 @@ A protocol is fair where its test pairs hold nothing that the model's training s
 that learned by `thesis` or `off_grid` has seen every factorial case as a target, so `strict` would flatter it.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,7 +12,7 @@ from jaxtyping import Int
 
 from myograph.ensemble.muscle_cases import MuscleCases
 from myograph.ensemble.pairs.protocols import OFF_GRID, PROTOCOLS, PairSet, Protocol, split_pairs
-from myograph.ensemble.pairs.question import Batch, Question
+from myograph.ensemble.pairs.question import Batch
 from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
 from myograph.errors import InputError
 from myograph.evaluation.evaluate import evaluate
@@ -21,6 +21,7 @@ from myograph.inference.feeds import FIELD_PARTS
 from myograph.inference.fitting import check_same_body
 from myograph.inference.latency import forward_milliseconds
 from myograph.inference.loaded import LoadedModel
+from myograph.inference.ways import WHOLE, told_only, ways
 
 FAIR: dict[str, tuple[Protocol, ...]] = {
     "thesis": ("thesis", "off_grid"),
@@ -29,8 +30,6 @@ FAIR: dict[str, tuple[Protocol, ...]] = {
 }
 """Protocol of the training -> protocols of the test."""
 PAIRS, DRAW_SEED = 1024, 0
-WHOLE = "all"
-"""The way of being told everything."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +68,7 @@ def evaluate_saved(model: LoadedModel, cases: MuscleCases, most_pairs: int = PAI
     """
     check_same_body(model, cases)
     sampler = _sampler(model, cases)
-    asked = ways(model)
+    asked = (WHOLE, *ways(model.told.signature))
     found: dict[str, dict[str, ErrorSummary]] = {way: {} for way in asked}
     pairs, left_out = {}, {}
     for protocol in PROTOCOLS:
@@ -83,8 +82,8 @@ def evaluate_saved(model: LoadedModel, cases: MuscleCases, most_pairs: int = PAI
             continue
         chosen = _some(chosen, most_pairs)
         pairs[protocol] = len(chosen)
-        for way, hide in asked.items():
-            found[way][protocol] = evaluate(model, _hidden(sampler.batches(chosen), hide)).summary()
+        for way in asked:
+            found[way][protocol] = evaluate(model, _told(sampler.batches(chosen), way)).summary()
     errors = found.pop(WHOLE)
     if not errors:
         raise InputError(f"{model.name}: expected cases for at least one protocol, got none: {left_out}")
@@ -92,33 +91,8 @@ def evaluate_saved(model: LoadedModel, cases: MuscleCases, most_pairs: int = PAI
     return SavedEvaluation(errors, found, pairs, left_out, truth, forward_milliseconds(model))
 
 
-def ways(model: LoadedModel) -> dict[str, Callable[[Question], Question]]:
-    """How it may be asked -> what is hidden from it."""
-    signature = model.told.signature
-    found: dict[str, Callable[[Question], Question]] = {WHOLE: lambda question: question}
-    if signature.takes_sensors and signature.unknown_activation and signature.least_sensors == 0:
-        found |= {"activation": without_sensors, "sensors": without_activation}
-    return found
-
-
-def without_sensors(question: Question) -> Question:
-    """The same, told nothing by sensors."""
-    return replace(
-        question,
-        sensor_nodes=question.sensor_nodes[:0],
-        sensor_places=question.sensor_places[:, :0],
-        sensor_initial={name: values[:, :0] for name, values in question.sensor_initial.items()},
-        sensor_target={name: values[:, :0] for name, values in question.sensor_target.items()},
-    )
-
-
-def without_activation(question: Question) -> Question:
-    """The same, not told the activations."""
-    return replace(question, activation=np.full_like(question.activation, np.nan))
-
-
-def _hidden(batches: Iterator[Batch], hide: Callable[[Question], Question]) -> Iterator[Batch]:
-    return (replace(batch, question=hide(batch.question)) for batch in batches)
+def _told(batches: Iterator[Batch], way: str) -> Iterator[Batch]:
+    return (replace(batch, question=told_only(batch.question, way)) for batch in batches)
 
 
 def _sampler(model: LoadedModel, cases: MuscleCases) -> PairSampler:

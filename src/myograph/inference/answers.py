@@ -13,12 +13,12 @@ from myograph.inference.signature import DEVIATION, RESIDUAL
 
 def answer_of(
     outputs: Mapping[str, np.ndarray],
-    scales_90: Mapping[str, float] | None = None,
+    scales_90: Mapping[str, np.ndarray] | None = None,
     inside: Bool[np.ndarray, " batch"] | None = None,
 ) -> Answer:
     """Fields, deviations and half widths by name, in double precision; Cauchy stress brings von Mises stress along.
 
-    `scales_90` are `ModelFile.half_width_90`.
+    `scales_90` has one for each pair: see `myograph.inference.ways.scales_of`.
     """
     values = {name: array.astype(np.float64) for name, array in outputs.items() if name in FIELDS}
     if "cauchy_stress" in values and "von_mises" not in values:
@@ -29,7 +29,8 @@ def answer_of(
         if name.endswith(DEVIATION)
     }
     widths = {
-        name: scale * deviation.get(name, np.ones(values[name].shape[:2])) for name, scale in (scales_90 or {}).items()
+        name: scale[:, None] * deviation.get(name, np.ones(values[name].shape[:2]))
+        for name, scale in (scales_90 or {}).items()
     }
     return Answer(values, deviation, widths, inside)
 

@@ -29,6 +29,7 @@ from myograph.inference.model_file import BODY, CARD, NETWORK, ModelFile, read_f
 from myograph.inference.question import check_question
 from myograph.inference.session import open_session, run_session
 from myograph.inference.verdict import inside
+from myograph.inference.ways import scales_of
 
 PAIRS_AT_ONCE = 16
 
@@ -75,7 +76,8 @@ class LoadedModel:
         ]
         outputs = {name: np.concatenate([part[name] for part in parts]) for name in signature.outputs}
         verdict = inside(question, outputs, (signature, self.told.trained_range, self.body))
-        return answer_of(outputs, self.told.half_width_90, verdict)
+        scales = scales_of(question, signature, self.told.half_width_90, self.told.half_width_90_from)
+        return answer_of(outputs, scales, verdict)
 
     def predict_activation(
         self, activation: Activation, hand_load: Numbers = 0.0, queries: Numbers | None = None

@@ -23,6 +23,7 @@ from myograph.fields import FIELDS
 from myograph.inference.answers import check_outputs
 from myograph.inference.feeds import check_inputs
 from myograph.inference.signature import Signature
+from myograph.inference.ways import Way
 
 SCHEMA = 1
 MODEL_FILE, NETWORK, BODY, WEIGHTS, CARD = "model.json", "model.onnx", "body.npz", "weights.safetensors", "card.md"
@@ -118,7 +119,10 @@ class ModelFile(Model):
         Protocol -> figure -> value, when it was saved.
     half_width_90
         Field -> half the width of the interval that holds 90 % of the truth: times the deviation where the network
-        gives one, else in the field's unit.
+        gives one, else in the field's unit; where the model is told all that it takes.
+    half_width_90_from
+        Likewise where a model that reads both is told activations alone, or sensors alone: 'activation', 'sensors' ->
+        field -> scale; where it says nothing, that of `half_width_90`.
     trained_range, origin
         What the training covered, and where the model comes from.
     limits
@@ -139,6 +143,7 @@ class ModelFile(Model):
     parity: Number
     metrics: dict[str, dict[str, Number]]
     half_width_90: dict[str, Number]
+    half_width_90_from: dict[Way, dict[str, Number]] = Field(default_factory=dict)
     trained_range: TrainedRange
     origin: Origin
     limits: tuple[str, ...]
@@ -202,7 +207,8 @@ def _check(told: ModelFile) -> None:
     check_muscle(told.muscle)
     check_inputs(told.signature.inputs)
     check_outputs(told.signature.outputs)
-    foreign = [name for name in told.half_width_90 if name not in told.signature.fields]
+    scaled = {name for scales in (told.half_width_90, *told.half_width_90_from.values()) for name in scales}
+    foreign = sorted(scaled - set(told.signature.fields))
     if foreign:
         raise InputError(
             f"half_width_90: expected some of {', '.join(told.signature.fields)}, got {', '.join(foreign)}"

@@ -4,6 +4,7 @@ muscle, arm_checksum, preset, simulator      words; `schema` a number
 activation, hand_load, elbow_angle, design   of every case [-], [N], [rad], word
 reference, skin, cells                       the body, as in `myograph.inference.body_file`
 field_FIELD                                  cases nodes ..., float32, to the nearest 2^-13 mm or 2^-16 MPa
+seconds                                      mean time of a case in the runs that solved them [s], where that is known
 """
 
 from dataclasses import replace
@@ -24,6 +25,8 @@ SCHEMA = 1
 FINEST = {"mm": -13, "MPa": -16}
 """Unit -> power of two that values are rounded to: 0.00012 mm, 0.000015 MPa."""
 MOST_BYTES = 2**28
+PER_CASE = "seconds_per_case"
+"""The attribute that `seconds` becomes."""
 _WORDS, _FIELD = ("arm_checksum", "preset", "simulator"), "field_"
 _NEEDED = (
     "schema",
@@ -54,7 +57,20 @@ def write_truth(path: Path, cases: MuscleCases, numbers: Int[np.ndarray, " some"
         "cells": cases.body.cells.astype(np.int32),
         **{_FIELD + name: _rounded(cases.values(name, numbers), name) for name in fields},
     }
+    seconds = seconds_per_case(cases)
+    if seconds is not None:
+        arrays["seconds"] = np.array(seconds)
     write_whole(path, lambda file: np.savez_compressed(file, allow_pickle=False, **arrays))
+
+
+def seconds_per_case(cases: MuscleCases) -> float | None:
+    """Mean time of a case in the runs that solved them [s], with all muscles; None where the cases do not tell."""
+    told = cases.attributes
+    try:
+        found = float(told[PER_CASE]) if PER_CASE in told else float(told["seconds"]) / len(cases)
+    except (KeyError, ValueError, ZeroDivisionError):
+        return None
+    return found if np.isfinite(found) and found > 0 else None
 
 
 def _rounded(values: np.ndarray, name: str) -> np.ndarray:
@@ -92,4 +108,6 @@ def _cases(arrays: dict[str, np.ndarray], fields: dict[str, np.ndarray]) -> Musc
         arrays["elbow_angle"],
     )
     words = {word: str(arrays[word]) for word in _WORDS}
+    if "seconds" in arrays:
+        words[PER_CASE] = str(arrays["seconds"])
     return replace(cases, hand_load=arrays["hand_load"], attributes=words)

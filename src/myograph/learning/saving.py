@@ -29,6 +29,7 @@ from myograph.inference.model_file import (
     read_file,
     read_model_file,
 )
+from myograph.inference.ways import Way
 from myograph.inference.writing import check_place, write_model
 from myograph.learning.methods import Rebuild, rebuild_of
 from myograph.learning.model_card import card
@@ -50,7 +51,7 @@ class Training:
         Of the training: how to do it again, and how long it took [s].
     metrics
         Protocol -> figure -> value.
-    half_width_90, residual_mm
+    half_width_90, half_width_90_from, residual_mm
         Calibration, as in `ModelFile` and `TrainedRange`.
     limits
         What not to use it for, a sentence each.
@@ -64,6 +65,7 @@ class Training:
     seconds: float = 0.0
     metrics: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     half_width_90: Mapping[str, float] = field(default_factory=dict)
+    half_width_90_from: Mapping[Way, Mapping[str, float]] = field(default_factory=dict)
     residual_mm: float | None = None
     limits: tuple[str, ...] = ()
 
@@ -139,6 +141,7 @@ def _told(model: Saveable, training: Training, trained: TrainedRange, exported: 
         parity=exported.parity,
         metrics={protocol: dict(figures) for protocol, figures in training.metrics.items()},
         half_width_90=dict(training.half_width_90),
+        half_width_90_from={way: dict(scales) for way, scales in training.half_width_90_from.items()},
         trained_range=trained,
         origin=origin,
         limits=training.limits,

@@ -80,7 +80,7 @@ class DirectArm:
         Raises InputError where there is no equilibrium in the arm's range, NotConvergedError where a muscle fails.
         """
         angle = self._rest(case) if case.elbow_angle is None else case.elbow_angle
-        states = {name: self._state(name, case, angle) for name in MUSCLES}
+        states = {name: self._muscles[name].state(_activation(case, name), angle) for name in MUSCLES}
         moments = {name: state.moment for name, state in states.items()}
         return Solution(case, angle, moments, {name: state.fields for name, state in states.items()}, "direct")
 
@@ -91,7 +91,7 @@ class DirectArm:
 
     def net_moment(self, case: Case, angle: float) -> float:
         """Sum of all moments about the elbow [N*mm] at an angle [rad]."""
-        muscles = sum(self._state(name, case, angle).moment for name in MUSCLES)
+        muscles = sum(self._muscles[name].moment(_activation(case, name), angle) for name in MUSCLES)
         return muscles + float(self._outside(np.array([angle]), case.hand_load)[0])
 
     def _balance(self, case: Case, angle: float) -> float:
@@ -109,8 +109,9 @@ class DirectArm:
                 " the activations"
             ) from None
 
-    def _state(self, name: str, case: Case, angle: float) -> MuscleState:
-        return self._muscles[name].state(case.activations[MUSCLES.index(name)], angle)
+
+def _activation(case: Case, name: str) -> float:
+    return case.activations[MUSCLES.index(name)]
 
 
 def stable_root(balance: Balance, start: float, low: float, high: float) -> float:
@@ -140,21 +141,28 @@ class _Remembering:
     def __init__(self, muscle: FiniteElementMuscle, starts: Interpolant | None) -> None:
         self._muscle, self._starts = muscle, starts
         self._reference = muscle.arm.reference_angle
-        self._rest: dict[float, Solved] = {self._reference: muscle.at_rest()}
+        self._rest: dict[float, Solved] = {}
         self._active: dict[tuple[float, float], Solved] = {}
 
     def forget(self) -> None:
         """Keep nothing but the muscle at rest in the reference pose."""
-        self._rest = {self._reference: self._rest[self._reference]}
+        self._rest = {angle: state for angle, state in self._rest.items() if angle == self._reference}
         self._active.clear()
 
     def state(self, activation: float, angle: float) -> MuscleState:
         """State at an activation and an angle [rad]."""
+        return self._muscle.read(self._solved(activation, angle))
+
+    def moment(self, activation: float, angle: float) -> float:
+        """Moment about the hinge [N*mm] of that state."""
+        return self._muscle.moment(self._solved(activation, angle))
+
+    def _solved(self, activation: float, angle: float) -> Solved:
         if (activation, angle) not in self._active:
             self._active[activation, angle] = self._reached(activation, angle)
             if len(self._active) > _MEMORY:
                 del self._active[next(iter(self._active))]
-        return self._muscle.read(self._active[activation, angle])
+        return self._active[activation, angle]
 
     def _reached(self, activation: float, angle: float) -> Solved:
         if self._starts is not None:
@@ -170,6 +178,8 @@ class _Remembering:
         return self._muscle.reach(self._at_rest(angle), activation, angle)
 
     def _at_rest(self, angle: float) -> Solved:
+        if not self._rest:
+            self._rest[self._reference] = self._muscle.at_rest()
         place = min(self._rest, key=lambda known: abs(known - angle))
         if abs(place - angle) > _NEAR / 2:
             self._rest[angle] = self._muscle.reach(self._rest[place], 0.0, angle)

@@ -16,7 +16,6 @@ from jaxtyping import Float
 
 
 @runtime_checkable
-@runtime_checkable
 class MomentCurve(Protocol):
     """Moment [N*mm] over the angle [rad] at one activation."""
 

@@ -18,7 +18,6 @@ Angles = Float[np.ndarray, " points"]
 
 
 @runtime_checkable
-@runtime_checkable
 class OutsideMoment(Protocol):
     """Sum of all moments about a joint that no muscle makes."""
 

@@ -115,14 +115,19 @@ class FiniteElementMuscle:
             raise InputError(f"{self.name}: expected {self._problem.vector_size} unknowns, got {len(vector)}")
         return Solved(Controls(1.0, activation, self._flexion(angle)), vector, 0)
 
+    def moment(self, solved: Solved) -> float:
+        """Moment about the hinge [N*mm] of a solved state; positive flexes."""
+        set_controls(self._problem, solved.controls)
+        return self._problem.moment(solved.vector, solved.controls.flexion)
+
     def read(self, solved: Solved) -> MuscleState:
         """What a solved state tells."""
-        set_controls(self._problem, solved.controls)
+        moment = self.moment(solved)
         return MuscleState(
             muscle=self._problem.name,
             activation=solved.controls.activation,
             angle=self.arm.reference_angle + solved.controls.flexion,
-            moment=self._problem.moment(solved.vector, solved.controls.flexion),
+            moment=moment,
             fields=self._reader.read(solved.vector),
             newton_steps=solved.newton_steps,
             soundness=soundness(self._problem, solved.vector, solved.controls.flexion),

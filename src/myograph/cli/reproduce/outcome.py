@@ -16,6 +16,8 @@ from myograph.evaluation import ErrorSummary, Figure
 
 Row = dict[str, Any]
 DIGITS = 4
+MEASURED = ("seconds", "predict_ms", "weights_kb", "onnx_kb", "onnx_ms", "c_kb", "c_int8_kb", "c_ms")
+"""Of a method, whatever the protocol."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +110,7 @@ def _figures(found: Sequence[Found], protocol: Protocol) -> dict[str, float | in
     for key in ("taught", "stored", "multiply_adds"):
         if key in found[0].told:
             figures[key] = int(found[0].told[key])
-    for key in ("seconds", "predict_ms", "weights_kb", "onnx_kb", "onnx_ms"):
+    for key in MEASURED:
         if key in found[0].told:
             figures[key] = rounded(float(np.mean([own.told[key] for own in found])))
     return figures

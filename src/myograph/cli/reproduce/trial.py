@@ -35,6 +35,18 @@ class Chosen:
     truth: str | None = None
 
 
+Choice = Literal["random", "deviation", "overall"]
+"""How the next case to simulate is chosen: see `growing`."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """So many of the factorial cases teach, chosen out of all of them as a pool."""
+
+    count: int
+    by: Choice
+
+
 @dataclass(frozen=True)
 class Trial:
     """A method, taught and tested.
@@ -55,6 +67,8 @@ class Trial:
         Test pairs of a protocol, at most.
     weighed
         Whether the saved model's size, its time on one core and its multiplications are measured too.
+    drawn
+        Which of the cases teach, where not all of them do.
     """
 
     name: str
@@ -71,6 +85,7 @@ class Trial:
     seed: int = 0
     pairs: int = 256
     weighed: bool = False
+    drawn: Drawn | None = None
 
     def key(self, checksums: Mapping[str, str]) -> str:
         """Checksum of all that the outcome depends on, its name aside; `checksums` are those of the stores."""

@@ -1,5 +1,7 @@
 """One trial in a process of its own: teach, test, keep what came of it.
 
+`seconds` of learning are those of the processor, so that a busy machine does not count.
+
 Arrays that are kept:
 
     node_mm_<protocol>, node_mpa_<protocol>   mean error of each node, NaN at sensors
@@ -10,7 +12,6 @@ Arrays that are kept:
 """
 
 import shutil
-import tempfile
 import time
 from collections.abc import Mapping
 from dataclasses import asdict, replace
@@ -22,7 +23,9 @@ import numpy as np
 from jaxtyping import Float
 
 from myograph.cli.reproduce.cache import Cache, Found
+from myograph.cli.reproduce.growing import grown
 from myograph.cli.reproduce.trial import MUSCLE, TESTED, Chosen, Trial
+from myograph.cli.reproduce.weighing import weighed
 from myograph.ensemble.muscle_cases import MuscleCases
 from myograph.ensemble.pairs.predictor import Predictor
 from myograph.ensemble.pairs.protocols import Protocol, Split, split_pairs
@@ -60,11 +63,11 @@ def run_trial(trial: Trial, stores: Mapping[str, Path], folder: Path | None = No
     from myograph.learning.gen.learner import GenLearner
     from myograph.learning.learners import Asked, make_learner
 
-    cases = cases_of(trial.cases, stores)
+    cases = grown(cases_of(trial.cases, stores), trial.drawn, trial.seed)
     sampler = _sampler(trial, cases)
     split = split_of(trial, cases, trial.teaching)
     learner = make_learner(Asked(trial.method, trial.options, trial.training, folder if trial.training else None))
-    started = time.perf_counter()
+    started = time.process_time()
     arrays: dict[str, np.ndarray] = {}
     if isinstance(learner, GenLearner):
         trained = learner.train(sampler, split)
@@ -73,7 +76,7 @@ def run_trial(trial: Trial, stores: Mapping[str, Path], folder: Path | None = No
         arrays["curve"] = _curve(trained.history)
     else:
         predictor = learner.fit(sampler, split)
-    told: dict[str, Any] = {"seconds": time.perf_counter() - started, "taught": len(split.train.cases), "protocols": {}}
+    told: dict[str, Any] = {"seconds": time.process_time() - started, "taught": len(split.train.cases), "protocols": {}}
     told["stored"] = _stored(predictor)
     told["predict_ms"] = _milliseconds(predictor, sampler, split)
     for protocol in TESTED[trial.teaching]:
@@ -81,7 +84,7 @@ def run_trial(trial: Trial, stores: Mapping[str, Path], folder: Path | None = No
         told["protocols"][protocol] = figures
         arrays |= more
     if trial.weighed:
-        told |= _weighed(predictor, sampler, split)
+        told |= weighed(predictor, sampler, split)
     return Found(told, arrays)
 
 
@@ -176,24 +179,3 @@ def _milliseconds(predictor: Predictor, sampler: PairSampler, split: Split) -> f
         predictor.predict(question)
         times.append(time.perf_counter() - started)
     return 1000 * float(np.median(times))
-
-
-def _weighed(predictor: Predictor, sampler: PairSampler, split: Split) -> dict[str, float]:
-    """Size of the saved network [kB], time of one answer by it on one core [ms], multiply-adds."""
-    from myograph.inference.latency import forward_milliseconds
-    from myograph.inference.loaded import load
-    from myograph.inference.model_file import NETWORK
-    from myograph.learning.counting import multiply_adds
-    from myograph.learning.saving import Training, save_model
-    from myograph.learning.torch_predictor import TorchPredictor
-
-    assert isinstance(predictor, TorchPredictor)
-    question = sampler.batch(split.test[:1]).question
-    with tempfile.TemporaryDirectory() as folder:
-        place = Path(folder) / "model"
-        save_model(predictor, Training(sampler.cases, split), place)
-        size = (place / NETWORK).stat().st_size
-        numbers = sum(value.numel() * value.element_size() for value in predictor.module.state_dict().values())
-        milliseconds = forward_milliseconds(load(place))
-    kilobytes = {"weights_kb": numbers / 1000, "onnx_kb": size / 1000}
-    return {**kilobytes, "onnx_ms": milliseconds, "multiply_adds": multiply_adds(predictor, question)}

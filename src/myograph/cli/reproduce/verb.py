@@ -5,6 +5,7 @@ import json
 import os
 import shlex
 import sys
+import time
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
@@ -72,6 +73,7 @@ def run_reproduction(arm: Arm, preset: str, sections: list[str], places: "Places
     """
     from myograph.cli.reproduce.cache import Cache
     from myograph.cli.reproduce.data import Data
+    from myograph.cli.reproduce.planning import plan
     from myograph.cli.reproduce.registry import EXPERIMENTS, check_sections
     from myograph.cli.reproduce.runner import Runner
     from myograph.cli.reproduce.shelf import REPORT, Shelf
@@ -85,6 +87,7 @@ def run_reproduction(arm: Arm, preset: str, sections: list[str], places: "Places
     if cache.prepare():
         steps.console.print("the cache is of another version of myograph: it is made anew")
     data = Data(arm, preset, size, places, steps)
+    steps.console.print(plan(preset, wanted, places.tables is None))
     runner, provenance = Runner(data, cache, steps), _provenance(arm, preset)
     for name in wanted:
         _make(name, data, runner, shelf)
@@ -100,7 +103,9 @@ def _make(name: str, data: "Data", runner: "Runner", shelf: "Shelf") -> None:
     from myograph.cli.reproduce.outcome import rounded
     from myograph.cli.reproduce.registry import EXPERIMENTS
     from myograph.evaluation.experiments.page import Made
+    from myograph.evaluation.page import duration
 
+    started = time.monotonic()
     experiment = EXPERIMENTS[name]
     trials = experiment.trials(data, data.size)
     told = [[trial.name for trial in trials], runner.keys(trials)]
@@ -115,6 +120,7 @@ def _make(name: str, data: "Data", runner: "Runner", shelf: "Shelf") -> None:
         "command": f"myograph reproduce --section {name} --preset {data.preset}{_given(data.places)}",
         "seeds": ", ".join(map(str, sorted({trial.seed for trial in trials}))),
         "data": ", ".join(f"{store} {data.cases(store).checksum[:16]}" for store in stores),
+        "time taken": duration(time.monotonic() - started),
     }
     shelf.put(name, key, Made(experiment.rows(outcome), figures, rounded(outcome.seconds), provenance))
 

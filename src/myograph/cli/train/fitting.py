@@ -57,7 +57,12 @@ def save(predictor: Predictor, training: "Training", folder: Path) -> Path | Non
     from myograph.learning.trust.calibrated import CalibratedPredictor
 
     if isinstance(predictor, CalibratedPredictor):
-        training = replace(training, half_width_90=predictor.factors, residual_mm=predictor.residual_mm)
+        training = replace(
+            training,
+            half_width_90=predictor.factors,
+            half_width_90_from=predictor.factors_from,
+            residual_mm=predictor.residual_mm,
+        )
         predictor = predictor.predictor
     if not isinstance(predictor, Saveable):
         return None

@@ -42,7 +42,10 @@ COST = (Column("taught by", "taught"), Column("stored numbers", "stored"), Colum
 WEIGHT = (
     Column("weights, kB", "weights_kb"),
     Column("ONNX, kB", "onnx_kb"),
-    Column("one core, ms", "onnx_ms"),
+    Column("C, kB", "c_kb"),
+    Column("C in int8, kB", "c_int8_kb"),
+    Column("ONNX, ms", "onnx_ms"),
+    Column("C, ms", "c_ms"),
     Column("multiply-adds", "multiply_adds"),
 )
 

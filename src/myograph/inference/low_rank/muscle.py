@@ -49,7 +49,7 @@ class LowRankMuscle:
     reference, skin, cells
         Of the body: material coordinates [mm], nodes of the surface's quadrilaterals, nodes of the elements.
     trained_range, half_width_90
-        As in `myograph.inference.model_file.ModelFile`.
+        As in `myograph.inference.model_file.ModelFile`, the latter where activations alone are told.
     checksum
         SHA-256 of the model's weights.
     """

@@ -76,7 +76,7 @@ def read_low_rank(folder: Path | str) -> LowRankMuscle:
         skin=body.skin.astype(np.int64),
         cells=body.cells.astype(np.int64),
         trained_range=told.trained_range,
-        half_width_90=told.half_width_90,
+        half_width_90={**told.half_width_90, **told.half_width_90_from.get("activation", {})},
         checksum=told.files[WEIGHTS].sha256,
     )
 

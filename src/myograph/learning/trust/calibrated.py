@@ -1,11 +1,12 @@
 """Any method with 90 % intervals and a verdict: a share of the training cases is held out from it to calibrate both.
 
 Cases of the design 'support' are held out where there are enough of them, for these lie within what was trained on; the
-factorial corners, at the edge of it, else.
+factorial corners, at the edge of it, else. Each way of telling a method (`myograph.inference.ways`) is calibrated by
+itself, for errors from activations are not those from sensors.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -16,13 +17,12 @@ from myograph.ensemble.pairs.protocols import SUPPORT, PairSet, Split
 from myograph.ensemble.pairs.question import Answer, Question
 from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.errors import InputError
-from myograph.fields import FIELDS
-from myograph.inference.signature import RESIDUAL
+from myograph.inference.ways import Way, scales_of
 from myograph.learning.torch_predictor import TorchPredictor
 from myograph.learning.trust.conformal import conformal_factor
 from myograph.learning.trust.nearness import Nearness, nearness
+from myograph.learning.trust.scores import Scores, deviation_of, residual_of, scores, ways_of
 
-BATCH = 32
 LEAST_CASES = 9
 """Cases of equal weight from which on 90 % can be promised."""
 RESIDUAL_LEVEL = 0.99
@@ -40,6 +40,8 @@ class CalibratedPredictor:
     factors
         Field -> half width over deviation, or, where the method knows no deviation, half width in the field's unit:
         what `myograph.learning.saving.Training.half_width_90` wants.
+    factors_from
+        Likewise where a method that reads both is told activations alone, or sensors alone.
     residual_mm
         Largest residual of the sensors that is inside; None where the method gives none.
     """
@@ -48,6 +50,7 @@ class CalibratedPredictor:
     factors: Mapping[str, float]
     nearness: Nearness
     residual_mm: float | None
+    factors_from: Mapping[Way, Mapping[str, float]] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
@@ -67,12 +70,19 @@ class CalibratedPredictor:
     def predict(self, question: Question) -> Answer:
         """The answer, with intervals and verdict."""
         answer = self.predictor.predict(question)
-        widths = {name: factor * _deviation(answer, name) for name, factor in self.factors.items()}
+        widths = {
+            name: scale[:, None] * deviation_of(answer, name) for name, scale in self._scales(question).items()
+        }
         inside = self._inside(question)
         return replace(answer, half_width_90=widths, inside=inside if answer.inside is None else inside & answer.inside)
 
+    def _scales(self, question: Question) -> dict[str, np.ndarray]:
+        if isinstance(self.predictor, TorchPredictor):
+            return scales_of(question, self.predictor.signature, self.factors, self.factors_from)
+        return {name: np.full(question.size, factor) for name, factor in self.factors.items()}
+
     def _inside(self, question: Question) -> np.ndarray:
-        residual = _residual(self.predictor, question)
+        residual = residual_of(self.predictor, question)
         agrees = np.ones(question.size, dtype=bool)
         if residual is not None and self.residual_mm is not None:
             agrees = residual <= self.residual_mm
@@ -128,24 +138,20 @@ def calibrate(
     """Factors and limits from held-out target cases, each with an initial case drawn from the training."""
     initial = np.random.default_rng((seed, 91)).choice(split.train.initial, len(held_out))
     pairs = np.stack([initial, held_out], axis=1)
-    errors: dict[str, list[np.ndarray]] = {}
-    deviations: dict[str, list[np.ndarray]] = {}
-    residuals: list[np.ndarray] = []
-    for batch in sampler.batches(pairs, BATCH):
-        answer = predictor.predict(batch.question)
-        for name in set(answer.values) & set(batch.truth):
-            if name == "position" or not FIELDS[name].components:
-                errors.setdefault(name, []).append(distance(answer.values[name], batch.truth[name], name))
-                deviations.setdefault(name, []).append(_deviation(answer, name))
-        residual = _residual(predictor, batch.question)
-        residuals += [] if residual is None else [residual]
     weights = edge_weights(sampler.cases.activation[held_out])
-    factors = {
-        name: conformal_factor(np.concatenate(errors[name]), np.concatenate(deviations[name]), weights)
-        for name in errors
+    whole = scores(predictor, sampler, pairs)
+    residuals = whole.residuals
+    limit = CONSERVATIVE * float(np.quantile(residuals, RESIDUAL_LEVEL)) if len(residuals) else None
+    alone = {way: factors_of(scores(predictor, sampler, pairs, way), weights) for way in ways_of(predictor)}
+    near = nearness(sampler.cases, split.train.cases)
+    return CalibratedPredictor(predictor, factors_of(whole, weights), near, limit, alone)
+
+
+def factors_of(found: Scores, weights: Float[np.ndarray, " pairs"] | None = None) -> dict[str, float]:
+    """Field -> the factor that holds 90 % of it."""
+    return {
+        name: conformal_factor(errors, found.deviations[name], weights) for name, errors in found.errors.items()
     }
-    limit = CONSERVATIVE * float(np.quantile(np.concatenate(residuals), RESIDUAL_LEVEL)) if residuals else None
-    return CalibratedPredictor(predictor, factors, nearness(sampler.cases, split.train.cases), limit)
 
 
 def edge_weights(activation: Float[np.ndarray, "cases muscles"]) -> Float[np.ndarray, " cases"]:
@@ -155,22 +161,6 @@ def edge_weights(activation: Float[np.ndarray, "cases muscles"]) -> Float[np.nda
     continuous activations all weigh one, corners of the cube all the same.
     """
     return 0.5 ** ((activation == 0) | (activation == 1)).sum(axis=1)
-
-
-def distance(predicted: np.ndarray, true: np.ndarray, name: str) -> np.ndarray:
-    """Error of every node in every pair, in the field's unit."""
-    missed = predicted.astype(np.float64) - true
-    return np.linalg.norm(missed, axis=-1) if FIELDS[name].components else np.abs(missed)
-
-
-def _deviation(answer: Answer, name: str) -> np.ndarray:
-    return answer.deviation.get(name, np.ones(answer.values[name].shape[:2]))
-
-
-def _residual(predictor: Predictor, question: Question) -> np.ndarray | None:
-    if not isinstance(predictor, TorchPredictor) or RESIDUAL not in predictor.signature.outputs:
-        return None
-    return predictor.outputs(question)[RESIDUAL]
 
 
 def _reads_activation(predictor: Predictor) -> bool:

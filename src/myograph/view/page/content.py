@@ -11,12 +11,15 @@ from jaxtyping import Int
 import myograph
 from myograph.case import MUSCLES
 from myograph.errors import InputError
+from myograph.inference.model_file import ModelFile
 from myograph.limb.motion.activation_file import Activations
 from myograph.units import degrees
 from myograph.view.page.body import PageBody, packed_angle, packed_body
 from myograph.view.page.bones import hinge_of, packed_bones
-from myograph.view.page.fields import field_choices
+from myograph.view.page.fields import FieldChoice, field_choices, network_choice
+from myograph.view.page.network import PageNetwork, packed_network
 from myograph.view.page.packing import Packer
+from myograph.view.page.solving import SolveTime
 from myograph.view.page.source import ArmModels, tendon
 from myograph.view.page.surface import MOST_NODES, PageSurface, page_surface
 from myograph.view.page.truth import TruthCase
@@ -41,17 +44,38 @@ PRESETS: tuple[tuple[str, tuple[float, ...]], ...] = (
 
 @dataclass(frozen=True)
 class PageArm:
-    """What a page is made of; a movement and cases of the truth where there are any."""
+    """What a page is made of; what beside the models is there where it is known.
+
+    Parameters
+    ----------
+    models
+        Neural modes of the muscles.
+    truth
+        Cases to compare with.
+    movement, movement_name
+        Activations over time.
+    network
+        Asked beside the modes of its muscle.
+    solve
+        How long a solver takes for a case, where the truth does not tell.
+    """
 
     models: ArmModels
     truth: Sequence[TruthCase] = ()
     movement: Activations | None = None
     movement_name: str = ""
+    network: PageNetwork | None = None
+    solve: SolveTime | None = None
+
+    @property
+    def solve_time(self) -> SolveTime | None:
+        """Of the truth, else of the cases that come with the package."""
+        return next((case.solve for case in self.truth if case.solve is not None), self.solve)
 
 
 @dataclass(frozen=True)
 class PageContent:
-    """What is put into the page, and what people should know of it."""
+    """What is put into the page, and what people should know of it; `network` where one is asked in it."""
 
     data: str
     numbers: str
@@ -59,6 +83,7 @@ class PageContent:
     vertices: int
     fields: tuple[str, ...]
     notes: tuple[str, ...]
+    network: str | None = None
 
 
 def page_content(asked: PageArm, most_nodes: int = MOST_NODES) -> PageContent:
@@ -71,7 +96,7 @@ def page_content(asked: PageArm, most_nodes: int = MOST_NODES) -> PageContent:
     colours = muscle_colours(MUSCLES)
     bodies = [PageBody(m, surfaces[m.muscle], colours[m.muscle], tendon(models, m.muscle)) for m in muscles]
     trained = muscles[0].trained_range
-    choices = field_choices(muscles, [_belly(body) for body in bodies], asked.truth)
+    choices = _choices(asked, bodies)
     notes = _notes(asked, surfaces)
     data = {
         "schema": SCHEMA,
@@ -92,13 +117,16 @@ def page_content(asked: PageArm, most_nodes: int = MOST_NODES) -> PageContent:
         "presets": [{"name": name, "activation": list(values), "hand_load": 0.0} for name, values in PRESETS],
         "truth": [_packed_truth(case, bodies, packer) for case in asked.truth],
         "movement": _packed_movement(asked, packer),
-        "about": _about(models),
+        "network": _packed_network(asked, bodies, packer),
+        "solve": None if asked.solve_time is None else asdict(asked.solve_time),
+        "about": _about(asked),
         "notes": notes,
     }
     text = json.dumps(data, allow_nan=False).replace("</", "<\\/")
     vertices = sum(_vertices(surface) for surface in surfaces.values())
     keys = tuple(choice.key for choice in choices)
-    return PageContent(text, packer.text(), data["title"], vertices, keys, tuple(notes))
+    network = asked.network and asked.network.model.name
+    return PageContent(text, packer.text(), data["title"], vertices, keys, tuple(notes), network)
 
 
 def _surface(models: ArmModels, name: str, most: int) -> PageSurface:
@@ -107,6 +135,22 @@ def _surface(models: ArmModels, name: str, most: int) -> PageSurface:
         return page_surface(muscle.reference, muscle.skin, models.told[name].signature.sensors, most)
     except InputError as problem:
         raise InputError(f"model of {name}: {problem}") from None
+
+
+def _choices(asked: PageArm, bodies: Sequence[PageBody]) -> list[FieldChoice]:
+    bellies = [_belly(body) for body in bodies]
+    found = field_choices([body.muscle for body in bodies], bellies, asked.truth)
+    if asked.network is None:
+        return found
+    of = [body.muscle.muscle for body in bodies].index(asked.network.muscle.muscle)
+    return [*found, network_choice(asked.network, bellies[of])]
+
+
+def _packed_network(asked: PageArm, bodies: Sequence[PageBody], packer: Packer) -> dict[str, Any] | None:
+    if asked.network is None:
+        return None
+    of = [body.muscle.muscle for body in bodies].index(asked.network.muscle.muscle)
+    return {"body": of, **packed_network(asked.network, bodies[of].surface.nodes, packer)}
 
 
 def _belly(body: PageBody) -> Int[np.ndarray, " nodes"]:
@@ -173,6 +217,8 @@ def _notes(asked: PageArm, surfaces: Mapping[str, PageSurface]) -> list[str]:
         notes.append("The model does not tell the elbow's angle: the forearm's bones are not drawn.")
     if first.trained_range.hand_load[0] == first.trained_range.hand_load[1]:
         notes.append(f"Trained with {first.trained_range.hand_load[0]:g} N in the hand only.")
+    if asked.network is not None:
+        notes.append(_network_note(asked.network))
     if asked.movement is not None:
         notes += [f"{asked.movement_name}: {note}." for note in asked.movement.notes]
         if len(asked.movement.times) > MOST_TIMES:
@@ -180,7 +226,15 @@ def _notes(asked: PageArm, surfaces: Mapping[str, PageSurface]) -> list[str]:
     return notes
 
 
-def _about(models: ArmModels) -> dict[str, str]:
+def _network_note(network: PageNetwork) -> str:
+    told, nodes = network.model.told, network.model.body.nodes
+    sensors = f"{len(network.sensors)} sensors, placed as the modes say" if len(network.sensors) else "activations"
+    other = "" if nodes == len(network.muscle.reference) else f"; it was taught on a body of {nodes} nodes"
+    return f"{told.name}: answers for the {told.muscle} from {sensors}{other}."
+
+
+def _about(asked: PageArm) -> dict[str, str]:
+    models, network = asked.models, asked.network
     told = next(iter(models.told.values()))
     rows = {
         "model": f"{told.name} ({', '.join(models.muscles)})",
@@ -190,8 +244,21 @@ def _about(models: ArmModels) -> dict[str, str]:
         "arm": told.origin.arm_checksum[:12],
         "protocol": told.origin.protocol,
     }
-    for protocol, figures in told.metrics.items():
-        for figure, value in figures.items():
-            if figure in ("mean_mm", "max_mm"):
-                rows[f"{protocol}, {figure.removesuffix('_mm')} error"] = f"{value:.3g} mm ({told.muscle})"
+    rows |= _errors(told)
+    if network is not None:
+        its = network.model.told
+        rows["network"] = f"{its.name} ({its.muscle}), {its.parameters} numbers"
+        rows |= {f"network, {name}": value for name, value in _errors(its).items()}
+    solve = asked.solve_time
+    if solve is not None:
+        rows[solve.what] = f"{solve.seconds:.3g} s: {solve.told}"
     return {name: value for name, value in rows.items() if value} | {"made by": f"myograph {myograph.__version__}"}
+
+
+def _errors(told: ModelFile) -> dict[str, str]:
+    return {
+        f"{protocol}, {figure.removesuffix('_mm')} error": f"{value:.3g} mm ({told.muscle})"
+        for protocol, figures in told.metrics.items()
+        for figure, value in figures.items()
+        if figure in ("mean_mm", "max_mm")
+    }

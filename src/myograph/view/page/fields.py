@@ -12,6 +12,7 @@ from jaxtyping import Float, Int
 from myograph.case import MUSCLES
 from myograph.fields import FIELDS
 from myograph.inference.low_rank import LowRankMuscle
+from myograph.view.page.network import PageNetwork
 from myograph.view.page.truth import TruthCase
 
 SAMPLED, SEED, PERCENTILE = 24, 0, 95.0
@@ -57,6 +58,18 @@ def field_choices(
             label, unit, meaning = words.get(key) or (key.replace("_", " "), FIELDS[key].unit, FIELDS[key].meaning)
             choices.append(FieldChoice(key, label, unit, *_ends(found[key], key in words), meaning))
     return choices
+
+
+def network_choice(network: PageNetwork, belly: Int[np.ndarray, " _"]) -> FieldChoice:
+    """How far the network's muscle is from that of the modes."""
+    muscle = network.muscle
+    load = muscle.trained_range.hand_load[0]
+    apart = [
+        np.linalg.norm(network.positions(row, load, belly) - muscle.at(row, load)["position"][belly], axis=1)
+        for row in samples([muscle])
+    ]
+    ends = _ends(np.concatenate(apart), from_zero=True)
+    return FieldChoice("difference", "network minus modes", "mm", *ends, "distance between the nodes of both")
 
 
 def samples(muscles: Sequence[LowRankMuscle]) -> Float[np.ndarray, "samples muscles"]:

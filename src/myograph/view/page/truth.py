@@ -13,6 +13,7 @@ from myograph.ensemble.store.reading import read_muscle
 from myograph.errors import InputError
 from myograph.inference.low_rank import LowRankMuscle
 from myograph.inference.truth import read_truth
+from myograph.view.page.solving import SolveTime, solve_time
 
 MOST_CASES = 12
 PREFERRED = ("off_grid", "factorial")
@@ -22,7 +23,10 @@ SAME_PLACE = 1e-2
 
 @dataclass(frozen=True)
 class TruthCase:
-    """A case; positions [mm] and, where there is some, von Mises stress [MPa] of each muscle that the dataset has."""
+    """A case; positions [mm] and, where there is some, von Mises stress [MPa] of each muscle that the dataset has.
+
+    `solve` is how long its solver takes for a case, where the dataset tells.
+    """
 
     name: str
     activation: Float[np.ndarray, " muscles"]
@@ -30,6 +34,7 @@ class TruthCase:
     elbow_angle: float | None
     positions: Mapping[str, Float[np.ndarray, "nodes 3"]]
     stresses: Mapping[str, Float[np.ndarray, " nodes"]]
+    solve: SolveTime | None = None
 
 
 def read_truth_cases(dataset: Path, muscles: Mapping[str, LowRankMuscle], most: int = MOST_CASES) -> list[TruthCase]:
@@ -86,4 +91,5 @@ def _case(number: int, found: Mapping[str, MuscleCases]) -> TruthCase:
         angle if np.isfinite(angle) else None,
         {name: cases.values("position", one)[0] for name, cases in found.items()},
         {name: cases.values("von_mises", one)[0] for name, cases in found.items() if "von_mises" in cases.fields},
+        solve_time(first),
     )

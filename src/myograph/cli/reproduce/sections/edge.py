@@ -1,31 +1,33 @@
-"""Edge: the smallest model within 0.5 mm, weighed; and how many simulations a model needs.
+"""Edge: the smallest model within 0.5 mm, weighed; and how many simulations a model needs, chosen at random or not.
 
 Models that know the activations learn from all cases of the ensemble. Multiply-adds are of one answer at all nodes.
+The learning curve takes its cases out of the ensemble's random tenths, and tests on continuous activations.
 """
 
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Float
 
-from myograph.cli.reproduce.data import SEED, Data
+from myograph.cli.reproduce.data import Data
 from myograph.cli.reproduce.experiment import Experiment, corners, taught_twice
-from myograph.cli.reproduce.outcome import Outcome
+from myograph.cli.reproduce.outcome import Outcome, Row, table_rows
 from myograph.cli.reproduce.pictures import over
 from myograph.cli.reproduce.sizes import Size
-from myograph.cli.reproduce.trial import Chosen, Trial
+from myograph.cli.reproduce.trial import Chosen, Drawn, Trial
 from myograph.evaluation import Figure
 from myograph.view.bands import Axes, Band, draw_bands
 
 WITHIN_MM = 0.5
 MODES = (2, 3, 4, 6, 8, 16)
 LATENTS = (4, 8, 16, 32)
-CHOICES = ("random", "spread")
+CHOICES = {"random": "random", "deviation": "largest deviation", "overall": "least deviation left"}
+"""How the next case is chosen -> as it stands in the table."""
+SMALLEST = f"smallest within {WITHIN_MM} mm"
 
 
 def trials(data: Data, size: Size) -> Sequence[Trial]:
-    """Neural modes of few modes, thin graph networks, and a learning curve."""
+    """Neural modes of few modes, thin graph networks, and learning curves."""
     few, many, training = corners(data), corners(data, support=True), {"steps": size.share(2)}
     rows = []
     for modes in MODES[: size.thin]:
@@ -34,66 +36,81 @@ def trials(data: Data, size: Size) -> Sequence[Trial]:
     for latent in LATENTS[: size.thin]:
         options = {"latent": latent, "hidden": (latent,), "skip": "affine"}
         rows.append(taught_twice(_thin(latent), "gen", few, size, options=options, training=training))
-    for choice in CHOICES:
-        for count in _counts(data, size):
-            rows.append(taught_twice(_taught(choice, count), "pod_gp", _some(data, choice, count), size))
-    trials = [trial for row in rows for trial in row]
-    return [replace(t, weighed=t.method != "pod_gp" and t.teaching == "off_grid") for t in trials]
+    thin = [replace(t, weighed=t.teaching == "off_grid") for row in rows for t in row]
+    return [*thin, *_curve(data, size)]
+
+
+def _curve(data: Data, size: Size) -> list[Trial]:
+    """Gaussian processes by all choices from several seeds; neural modes by random cases."""
+    pool = data.numbers("ensemble", "support")[: size.support]
+    cases = Chosen("ensemble", pool, data.numbers("ensemble", "off_grid")[: size.off_grid])
+    found = []
+    for count in _counts(data, size):
+        for by in CHOICES:
+            name = _taught("pod_gp", count, by)
+            plain = Trial(name, "pod_gp", cases, "off_grid", pairs=size.pairs, drawn=Drawn(count, by))
+            found += [replace(plain, seed=seed) for seed in range(size.seeds)]
+        name = _taught("neural_modes", count, "random")
+        drawn = Drawn(count, "random")
+        found.append(Trial(name, "neural_modes", cases, "off_grid", pairs=size.pairs, drawn=drawn))
+    return found
 
 
 def figures(outcome: Outcome) -> tuple[Figure, ...]:
     """Error over size, and over the number of simulations."""
     counts = _counts(outcome.data, outcome.size)
-    groups = {f"pod_gp, {choice}": {float(n): _taught(choice, n) for n in counts} for choice in CHOICES}
+    kinds = [("pod_gp", by) for by in CHOICES] + [("neural_modes", "random")]
+    groups = {
+        f"{method}, {CHOICES[by]}": {float(count): _taught(method, count, by) for count in counts}
+        for method, by in kinds
+    }
     caption = (
-        "How many simulations are needed: mean error of a Gaussian process over the number of cases, drawn at random "
-        "or one after the other as far from all others as possible."
+        "How many simulations are needed: mean error over the number of cases. The next cases of a Gaussian process "
+        "are drawn at random, or where its predicted deviation is largest, or where they lower the deviation of all "
+        f"cases most; means and deviations over {outcome.size.seeds} seeds."
     )
-    return _weights(outcome), over(outcome, groups, ("simulated cases", caption), ("off_grid", "strict"))
+    return _weights(outcome), over(outcome, groups, ("simulated cases", caption), ("off_grid",))
+
+
+def rows(outcome: Outcome) -> list[Row]:
+    """Those of the trials; the smallest of each kind within the limit, under both protocols, stands first."""
+    plain = table_rows(outcome)
+    smallest = [name for names in _kinds(outcome.size).values() if (name := _smallest(outcome, names)) is not None]
+    again = [{**row, "name": f"{SMALLEST}: {name}"} for name in smallest for row in plain if row["name"] == name]
+    return [*again, *plain]
+
+
+def _smallest(outcome: Outcome, names: Sequence[str]) -> str | None:
+    within = [
+        name
+        for name in names
+        if all(outcome.mean(name, protocol) <= WITHIN_MM for protocol in ("strict", "off_grid"))
+    ]
+    return min(within, key=lambda name: outcome.of(name, "off_grid")[0].told["weights_kb"], default=None)
 
 
 def _weights(outcome: Outcome) -> Figure:
     bands = []
-    thin = outcome.size.thin
-    for group, names in {"neural modes": map(_modes, MODES[:thin]), "thin graphs": map(_thin, LATENTS[:thin])}.items():
-        named = list(names)
+    for group, names in _kinds(outcome.size).items():
+        x = np.array([outcome.of(name, "off_grid")[0].told["weights_kb"] for name in names])
         for protocol in ("off_grid", "strict"):
-            x = np.array([outcome.of(name, "off_grid")[0].told["weights_kb"] for name in named])
-            errors = outcome.values(named, protocol)[0]
+            errors = outcome.values(names, protocol)[0]
             bands.append(Band(f"{group}, {protocol}", x, errors, dashed=protocol == "strict"))
-    bands.append(
-        Band("0.5 mm", np.array([1.0, 1000.0]), np.array([WITHIN_MM, WITHIN_MM]), dashed=True, colour="#22262b")
-    )
+    limit = np.array([WITHIN_MM, WITHIN_MM])
+    bands.append(Band(f"{WITHIN_MM} mm", np.array([1.0, 1000.0]), limit, dashed=True, colour="#22262b"))
     caption = "Mean error over the size of the weights: what a prosthesis would have to hold."
     return Figure(caption, draw_bands(bands, Axes("weights [kB]", "mean error [mm]", log_x=True)), caption)
 
 
+def _kinds(size: Size) -> dict[str, list[str]]:
+    """Kind of thin model -> its rows."""
+    modes, latents = map(_modes, MODES[: size.thin]), map(_thin, LATENTS[: size.thin])
+    return {"neural modes": list(modes), "thin graphs": list(latents)}
+
+
 def _counts(data: Data, size: Size) -> list[int]:
-    there = len(data.numbers("ensemble", "support"))
+    there = len(data.numbers("ensemble", "support")[: size.support])
     return [count for count in size.taught if count <= there]
-
-
-def _some(data: Data, choice: str, count: int) -> Chosen:
-    """Cases with random tenths, as many; they stand for the factorial ones."""
-    cases = data.cases("ensemble")
-    there = cases.named("support")
-    if choice == "random":
-        drawn = np.random.default_rng(SEED).permutation(there)[:count]
-    else:
-        drawn = there[farthest(cases.activation[there], count)]
-    return Chosen(
-        "ensemble", tuple(np.sort(drawn).tolist()), data.numbers("ensemble", "off_grid")[: data.size.off_grid]
-    )
-
-
-def farthest(points: Float[np.ndarray, "points axes"], count: int) -> list[int]:
-    """Points one after the other, each as far as possible from those before; the first is the nearest to the middle."""
-    chosen = [int(np.linalg.norm(points - points.mean(axis=0), axis=1).argmin())]
-    distance = np.linalg.norm(points - points[chosen[0]], axis=1)
-    while len(chosen) < count:
-        chosen.append(int(distance.argmax()))
-        distance = np.minimum(distance, np.linalg.norm(points - points[chosen[-1]], axis=1))
-    return chosen
 
 
 def _modes(modes: int) -> str:
@@ -104,8 +121,8 @@ def _thin(latent: int) -> str:
     return f"gen_8, latent {latent}"
 
 
-def _taught(choice: str, count: int) -> str:
-    return f"pod_gp, {count} {choice} cases"
+def _taught(method: str, count: int, by: str) -> str:
+    return f"{method}, {count} cases, {CHOICES[by]}"
 
 
-EXPERIMENT = Experiment(trials, figures)
+EXPERIMENT = Experiment(trials, figures, rows)

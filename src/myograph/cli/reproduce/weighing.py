@@ -1,0 +1,86 @@
+"""What a saved model weighs: kilobytes, milliseconds of one answer on one core, multiply-adds; the same in plain C.
+
+One answer is all nodes of one case. In C a model of neural modes stands as `myograph export c` writes it: all modes as
+floats, and the fewest modes as int8 that stay within `WITHIN_MM` of them. Without a compiler these figures are left out.
+"""
+
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from myograph.ensemble.pairs.protocols import Split
+from myograph.ensemble.pairs.predictor import Predictor
+from myograph.ensemble.pairs.sampler import PairSampler
+from myograph.errors import InputError
+from myograph.export.c import Wanted, c_source, reduced_muscle
+from myograph.inference.latency import forward_milliseconds
+from myograph.inference.loaded import load
+from myograph.inference.low_rank import read_low_rank
+from myograph.inference.model_file import NETWORK
+
+WITHIN_MM, KILOBYTE, ANSWERS = 0.05, 1000, 2000
+COMPILER = ("-std=c99", "-O2")
+CALLED = "muscle"
+MAIN = """#include "muscle.h"
+#include <stdio.h>
+#include <time.h>
+
+static float position[3 * MUSCLE_NODES];
+
+int main(void)
+{
+    float activation[5] = {0.1f, 0.2f, 0.7f, 0.4f, 0.3f}, sum = 0.0f;
+    const clock_t start = clock();
+    for (int i = 0; i < ANSWERS; i++) {
+        activation[2] = (float)i / (float)ANSWERS;
+        muscle_predict(activation, 0.0f, position);
+        sum += position[i % (3 * MUSCLE_NODES)];
+    }
+    printf("%.9g %g\\n", 1000.0 * (double)(clock() - start) / CLOCKS_PER_SEC / ANSWERS, (double)sum);
+    return 0;
+}
+"""
+
+
+def weighed(predictor: Predictor, sampler: PairSampler, split: Split) -> dict[str, float]:
+    """Sizes [kB], times of one answer [ms], multiply-adds."""
+    from myograph.learning.counting import multiply_adds
+    from myograph.learning.saving import Training, save_model
+    from myograph.learning.torch_predictor import TorchPredictor
+
+    assert isinstance(predictor, TorchPredictor)
+    question = sampler.batch(split.test[:1]).question
+    numbers = sum(value.numel() * value.element_size() for value in predictor.module.state_dict().values())
+    told = {"weights_kb": numbers / KILOBYTE, "multiply_adds": multiply_adds(predictor, question)}
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder) / "model"
+        save_model(predictor, Training(sampler.cases, split), place)
+        told["onnx_kb"] = (place / NETWORK).stat().st_size / KILOBYTE
+        told["onnx_ms"] = forward_milliseconds(load(place))
+        if predictor.name == "neural_modes":
+            told |= in_c(place, Path(folder))
+    return told
+
+
+def in_c(model: Path, folder: Path) -> dict[str, float]:
+    """Size and time of neural modes in plain C; nothing where there is no compiler."""
+    compiler = shutil.which("cc") or shutil.which("gcc")
+    if compiler is None:
+        return {}
+    muscle = read_low_rank(model)
+    whole = reduced_muscle(muscle, Wanted("float", tolerance_mm=None, surface=False))
+    told = {"c_kb": whole.bytes / KILOBYTE}
+    try:
+        told["c_int8_kb"] = reduced_muscle(muscle, Wanted("int8", WITHIN_MM, surface=False)).bytes / KILOBYTE
+    except InputError:
+        pass
+    for name, text in {**c_source(whole, CALLED).files, "main.c": MAIN}.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    command = [compiler, *COMPILER, f"-DANSWERS={ANSWERS}", "main.c", f"{CALLED}.c", "-lm", "-o", "program"]
+    try:
+        subprocess.run(command, cwd=folder, capture_output=True, check=True)
+        done = subprocess.run([folder / "program"], capture_output=True, text=True, check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return told
+    return {**told, "c_ms": float(done.stdout.split()[0])}

@@ -1,0 +1,68 @@
+"""The ways a model may be told: by activations, by sensors, or by both; each has errors of its own.
+
+A model that answers from both, and where either is missing from the other, is asked in three ways. Whatever else a
+model reads, it is told all that it takes: `WHOLE`.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Literal, get_args
+
+import numpy as np
+
+from myograph.ensemble.pairs.question import Question
+from myograph.inference.signature import Signature
+
+Way = Literal["activation", "sensors"]
+"""Told nothing else, by a model that could be told more."""
+WAYS: tuple[Way, ...] = get_args(Way)
+WHOLE = "all"
+"""The way of being told everything."""
+Scales = Mapping[str, float]
+"""Field -> half width over deviation, or half width in the field's unit."""
+
+
+def ways(signature: Signature) -> tuple[Way, ...]:
+    """How else than by everything that it takes a model may be told."""
+    either = signature.takes_sensors and signature.unknown_activation and signature.least_sensors == 0
+    return WAYS if either else ()
+
+
+def told_only(question: Question, way: str) -> Question:
+    """The same question, told in that way."""
+    if way == "activation":
+        return without_sensors(question)
+    return without_activation(question) if way == "sensors" else question
+
+
+def without_sensors(question: Question) -> Question:
+    """The same, told nothing by sensors."""
+    return replace(
+        question,
+        sensor_nodes=question.sensor_nodes[:0],
+        sensor_places=question.sensor_places[:, :0],
+        sensor_initial={name: values[:, :0] for name, values in question.sensor_initial.items()},
+        sensor_target={name: values[:, :0] for name, values in question.sensor_target.items()},
+    )
+
+
+def without_activation(question: Question) -> Question:
+    """The same, not told the activations."""
+    return replace(question, activation=np.full_like(question.activation, np.nan))
+
+
+def scales_of(
+    question: Question, signature: Signature, whole: Scales, alone: Mapping[Way, Scales]
+) -> dict[str, np.ndarray]:
+    """Field -> the scale of each pair, by the way it is told; those of `whole` where `alone` says nothing else."""
+    if not alone or not ways(signature):
+        return {name: np.full(question.size, scale) for name, scale in whole.items()}
+    known = ~np.isnan(question.activation).all(axis=1)
+    sensed = len(question.sensor_nodes) > 0
+    only = {"activation": known & (not sensed), "sensors": ~known & sensed}
+    found = {}
+    for name, scale in whole.items():
+        found[name] = np.full(question.size, scale)
+        for way, pairs in only.items():
+            found[name][pairs] = alone.get(way, {}).get(name, scale)
+    return found
