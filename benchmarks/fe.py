@@ -2,7 +2,7 @@
 
     python benchmarks/fe.py --make-felupe DIR          once: an environment of its own for FElupe
     python benchmarks/fe.py --felupe-python DIR/bin/python [--preset quick] [--muscle biceps] [--repeats 3] [--json]
-                            [--variants tensortrax+scipy jax+scipy jax+pardiso] [--native]
+                            [--variants tensortrax+scipy jax+scipy jax+pardiso]
 
 FElupe is GPL: it is no dependency, and nothing of this project imports it. Both sides run as processes of one thread on
 one processor, in turn; medians over the repeats. A variant of FElupe is who differentiates the law and who solves the
@@ -62,7 +62,6 @@ def main() -> None:
     parser.add_argument("--muscle", default="biceps")
     parser.add_argument("--variants", nargs="+", default=list(VARIANTS), choices=VARIANTS)
     parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--native", action="store_true", help="let the C++ compiler translate our law first")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
     python = make_environment(options.make_felupe) if options.make_felupe else options.felupe_python
@@ -112,7 +111,7 @@ def compare(options: argparse.Namespace, python: Path, folder: Path) -> dict:
     """Run both sides in turn, as often as asked; medians, ratios and differences."""
     problem, script = folder / "problem.npz", HERE / "fe_ours.py"
     run([sys.executable, script, problem, "--write", "--preset", options.preset, "--muscle", options.muscle])
-    sides = {"ours": [sys.executable, script, problem, "--solve", folder / "ours.npz", *["--native"] * options.native]}
+    sides = {"ours": [sys.executable, script, problem, "--solve", folder / "ours.npz"]}
     for variant in options.variants:
         derivatives, solver = variant.split("+")
         command = [python, HERE / "fe_felupe.py", problem, folder / f"{variant}.npz"]
@@ -126,7 +125,7 @@ def compare(options: argparse.Namespace, python: Path, folder: Path) -> dict:
         rest = file["points"]
     answers = {name: difference(folder / "ours.npz", folder / f"{name}.npz", rest) for name in options.variants}
     ratios = {name: ratio(medians[name], medians["ours"]) for name in options.variants}
-    size = {"preset": options.preset, "muscle": options.muscle, "native": options.native, "repeats": options.repeats}
+    size = {"preset": options.preset, "muscle": options.muscle, "repeats": options.repeats}
     return {**size, "unknowns": costs["ours"][0]["unknowns"], "medians": medians, "ratios": ratios, "answers": answers}
 
 

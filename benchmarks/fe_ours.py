@@ -1,7 +1,7 @@
 """Our side of benchmarks/fe.py: writes the problem that FElupe gets, or walks through its load steps and times itself.
 
     python fe_ours.py PROBLEM --write [--preset quick] [--muscle biceps]
-    python fe_ours.py PROBLEM --solve RESULT [--native]
+    python fe_ours.py PROBLEM --solve RESULT
 
 The muscle has neither bones nor bands. Loads: the pre-stretch in eight equal increments in the reference pose, one
 jump of the activation, one turn of the elbow; each solved from the one before by `newton`, without any prediction.
@@ -90,18 +90,18 @@ def loads() -> list[Controls]:
     return [*ramp, Controls(1.0, ACTIVATION, 0.0), Controls(1.0, ACTIVATION, TURN)]
 
 
-def build(name: str, preset: str, native: bool) -> TimedProblem:
+def build(name: str, preset: str) -> TimedProblem:
     """The muscle, ready to be solved."""
     ngs.SetNumThreads(1)
     ngs.ngsglobals.msg_level = 0
     problem_module.Tangent = TimedTangent
     arm = free_arm(name)
-    return TimedProblem(arm, name, preset_mesh(arm, name, preset), native=native)
+    return TimedProblem(arm, name, preset_mesh(arm, name, preset))
 
 
 def description(name: str, preset: str) -> dict[str, np.ndarray]:
     """All that another finite-element program needs to know, with the fields at the 27 integration points of a cell."""
-    problem = build(name, preset, native=False)
+    problem = build(name, preset)
     mesh, muscle = problem.mesh, problem.muscle
     rule = ngs.IntegrationRule((0.5 * (mesh.element.places + 1)).tolist(), mesh.element.weights.tolist())
     points = problem.space.mesh.MapToAllElements(rule, ngs.VOL)
@@ -125,10 +125,10 @@ def description(name: str, preset: str) -> dict[str, np.ndarray]:
     }
 
 
-def walk(name: str, preset: str, native: bool) -> tuple[dict, dict]:
+def walk(name: str, preset: str) -> tuple[dict, dict]:
     """Go through all loads: where it ended, and what it took."""
     started = now()
-    problem = build(name, preset, native)
+    problem = build(name, preset)
     vector, steps = np.zeros(problem.vector_size), 0
     SECONDS.update(matrix=np.zeros(2), linear=np.zeros(2))
     prepared = now()
@@ -154,7 +154,6 @@ def main() -> None:
     task.add_argument("--solve", metavar="RESULT")
     parser.add_argument("--preset", default="quick")
     parser.add_argument("--muscle", default="biceps")
-    parser.add_argument("--native", action="store_true")
     options = parser.parse_args()
     try:
         if options.write:
@@ -162,7 +161,7 @@ def main() -> None:
             return
         with np.load(options.problem, allow_pickle=False) as file:
             name, preset = map(str, file["names"])
-        answer, cost = walk(name, preset, options.native)
+        answer, cost = walk(name, preset)
     except MyographError as problem:
         sys.exit(_told(problem))
     np.savez(options.solve, **answer)

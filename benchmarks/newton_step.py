@@ -29,13 +29,13 @@ def main() -> None:
     ngs.ngsglobals.msg_level = 0
     arm = built_in_arm()
     mesh = muscle_mesh(arm, options.muscle, RESOLUTIONS[options.preset])
-    problem = MuscleProblem(arm, options.muscle, mesh, native=options.preset == "thesis")
+    problem = MuscleProblem(arm, options.muscle, mesh)
     rest = at_rest(problem)
     tangent = problem.tangent(rest.vector)
     times: dict[str, list[float]] = {"assembly": [], "factorisation": [], "step": []}
     for round_ in range(options.steps):
         started = time.perf_counter()
-        problem._energy.AssembleLinearization(problem._load(rest.vector))
+        problem.assemble(rest.vector)
         assembled = time.perf_counter()
         tangent.refactor()
         times["assembly"].append(assembled - started)

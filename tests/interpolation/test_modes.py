@@ -70,3 +70,12 @@ def test_bad_data_are_refused():
     values[7:9, 3] = np.nan
     with pytest.raises(InputError, match="got 2 states that are not, the first is state 7"):
         compress(values, 1.0)
+
+
+def test_single_precision_costs_no_more_than_its_rounding():
+    values = 100 * np.random.default_rng(1).normal(size=(6, 50))
+    modes = compress(values, 1e-9)
+    rounded = modes.rounded()
+    assert rounded.vectors.dtype == np.float32
+    assert rounded.expand(rounded.coefficients) == pytest.approx(values, abs=1e-4)
+    assert np.abs(rounded.expand(rounded.coefficients) - values).max() > 1e-9

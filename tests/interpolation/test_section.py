@@ -62,3 +62,18 @@ def test_only_two_coordinates_with_one_component_have_sections():
     two = interpolate(grid, basis("modified"), np.zeros((len(grid), 2)))
     with pytest.raises(InputError, match="expected an interpolant of two coordinates with one component, got 2 and 2"):
         Sections(two)
+
+
+def test_further_breaks_change_no_value(spline):
+    more = np.array([0.111, 0.5, 0.73])
+    plain, refined = Sections(spline), Sections(spline, more)
+    assert set(np.round(refined.breaks, 12)) == set(np.round(np.concatenate([plain.breaks, more]), 12))
+    assert refined.held(0.3)(X) == pytest.approx(plain.held(0.3)(X), rel=1e-12, abs=1e-13)
+    assert refined.held(0.3).slope(1.2) == pytest.approx(plain.held(0.3).slope(1.2), rel=1e-11)
+
+
+def test_sections_of_other_grids_add_on_common_breaks():
+    fine, coarse = (_spline("modified_clenshaw_curtis", 3, level) for level in (4, 2))
+    together = np.concatenate([Sections(fine).breaks, Sections(coarse).breaks])
+    one, other = (Sections(function, together).held(0.3) for function in (fine, coarse))
+    assert (one + other)(X) == pytest.approx(Sections(fine).held(0.3)(X) + Sections(coarse).held(0.3)(X), rel=1e-11)

@@ -1,11 +1,15 @@
 """A small muscle problem, and controls that bring it into a generic state."""
 
+import numpy as np
 import pytest
 
 pytest.importorskip("ngsolve", reason="the mechanics need NGSolve")
 
+import ngsolve as ngs
+
 from myograph.anatomy.load import built_in_arm
 from myograph.mechanics.continuation import Controls, at_rest, reach, set_controls
+from myograph.mechanics.layout import LAYOUTS
 from myograph.mechanics.problem import MuscleProblem
 from myograph.mesh.presets import RESOLUTIONS, muscle_mesh
 
@@ -13,6 +17,13 @@ from myograph.mesh.presets import RESOLUTIONS, muscle_mesh
 def problem_of(name):
     arm = built_in_arm()
     return MuscleProblem(arm, name, muscle_mesh(arm, name, RESOLUTIONS["tiny"]))
+
+
+def recovered(space, function):
+    """A function at the nodes, as fields are."""
+    points = space.mesh.MapToAllElements(LAYOUTS[space.muscle.element.kind].recovery, ngs.VOL)
+    values = np.asarray(function(points), dtype=float)
+    return space.recovered(values.reshape(len(values), -1))
 
 
 @pytest.fixture(scope="session")

@@ -50,7 +50,7 @@ def test_bones_of_the_forearm_turn_with_it():
     energies = []
     for displacement, flexion in ((np.zeros_like(vector), 0.0), (vector, angle)):
         problem.controls.turn.set(flexion)
-        energies.append(float(problem._turning.Energy(problem._load(displacement))))
+        energies.append(float(problem._turning.form.Energy(problem._load(displacement))))
     assert energies[0] > 0
     assert energies[1] == pytest.approx(energies[0], rel=1e-8)
 

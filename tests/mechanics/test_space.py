@@ -7,6 +7,7 @@ import pytest
 from myograph.mechanics.space import nodal_space
 from myograph.mesh.hexahedra import lattice
 from myograph.mesh.sweep import Resolution, Tube, sweep
+from tests.mechanics.conftest import recovered
 
 
 def test_nodal_values_lead_to_unknowns_and_back(biceps):
@@ -28,7 +29,7 @@ def test_coordinates_are_recovered_exactly_at_the_nodes_of_straight_elements():
     centres = np.outer(np.linspace(0, 50, 11), [0.0, 0.0, 1.0])
     tube = Tube(centres, np.full(11, 100.0), np.ones(11), np.array([0.0, 1.0, 0.0]), 50.0)
     mesh = sweep(tube, size)
-    height = nodal_space(mesh).at_nodes(2 * ngs.z - 1)
+    height = recovered(nodal_space(mesh), 2 * ngs.z - 1)
     assert height[:, 0] == pytest.approx(2 * mesh.points[:, 2] - 1, abs=1e-10)
 
 
@@ -39,8 +40,8 @@ def test_both_sides_agree_on_the_volume(biceps):
 
 
 def test_fibres_are_unit_vectors_along_the_muscle(biceps):
-    fibre, mesh = biceps.space.at_nodes(biceps.site.fibre), biceps.mesh
-    assert biceps.space.at_nodes(ngs.Norm(biceps.site.fibre)) == pytest.approx(1.0, abs=1e-12)
+    fibre, mesh = recovered(biceps.space, biceps.site.fibre), biceps.mesh
+    assert recovered(biceps.space, ngs.Norm(biceps.site.fibre)) == pytest.approx(1.0, abs=1e-12)
     centres = np.array([mesh.points[mesh.along == place].mean(axis=0) for place in np.unique(mesh.along)])
     tangent = np.gradient(centres, axis=0)
     tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)

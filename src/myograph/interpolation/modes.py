@@ -5,7 +5,7 @@ the first r leave the least weighted sum of squares. r is the smallest number wh
 tolerance.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -32,7 +32,11 @@ class Modes:
 
     def expand(self, coefficients: Float[np.ndarray, "*batch modes"]) -> Float[np.ndarray, "*batch n"]:
         """Data of any coefficients, those of the states or interpolated ones."""
-        return self.mean + coefficients @ self.vectors
+        return self.mean + coefficients.astype(self.vectors.dtype) @ self.vectors
+
+    def rounded(self) -> "Modes":
+        """With vectors in single precision: twice as fast to expand, for reading them is what takes the time."""
+        return replace(self, vectors=self.vectors.astype(np.float32))
 
 
 def compress(

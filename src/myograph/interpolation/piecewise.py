@@ -9,7 +9,7 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import factorial, perm
+from math import comb, factorial, perm
 
 import numpy as np
 from jaxtyping import Float
@@ -55,6 +55,21 @@ class PiecewisePolynomials:
             self.inner_breaks, self.middles, self.half_widths, np.ascontiguousarray(self.coefficients[:, :, order])
         )
 
+    def refined(self, breaks: Float[np.ndarray, " more"]) -> "PiecewisePolynomials":
+        """The same functions with further breaks in (0, 1): every polynomial is moved to the middles of new cells."""
+        old = np.concatenate([[0.0], self.inner_breaks, [1.0]])
+        new = _distinct(np.concatenate([old, breaks]))
+        middles, half_widths = (new[:-1] + new[1:]) / 2, np.diff(new) / 2
+        cell = self.inner_breaks.searchsorted(middles, side="right")
+        shift, share = (middles - self.middles[cell]) / self.half_widths[cell], half_widths / self.half_widths[cell]
+        powers = self.coefficients.shape[1]
+        moved = np.zeros((len(middles), powers, self.coefficients.shape[2]))
+        for m in range(powers):
+            for k in range(m, powers):
+                weight = comb(k, m) * share**m * shift ** (k - m)
+                moved[:, m] += weight[:, None] * self.coefficients[cell, k]
+        return PiecewisePolynomials(new[1:-1], middles, half_widths, moved)
+
     def __call__(self, x: Float[np.ndarray, " points"], derivative: int = 0) -> Float[np.ndarray, "points functions"]:
         """Values, or derivatives of this order, of all functions at places in [0, 1]."""
         cell = self.inner_breaks.searchsorted(x, side="right")
@@ -84,8 +99,13 @@ class PiecewisePolynomials:
 
 
 def _breaks(splines: Sequence[BSpline]) -> np.ndarray:
-    """0, the knots between, and 1; knots that a rounding error parts are one."""
-    knots = np.unique(np.concatenate([spline.t for spline in splines]))
-    inner = knots[(knots > 1e-14) & (knots < 1 - 1e-14)]
+    """0, the knots between, and 1."""
+    return _distinct(np.concatenate([spline.t for spline in splines]))
+
+
+def _distinct(places: np.ndarray) -> np.ndarray:
+    """0, the places between, and 1, in rising order; places that a rounding error parts are one."""
+    ordered = np.unique(places)
+    inner = ordered[(ordered > 1e-14) & (ordered < 1 - 1e-14)]
     apart = np.diff(inner, prepend=-1.0) > 1e-14
     return np.concatenate([[0.0], inner[apart], [1.0]])

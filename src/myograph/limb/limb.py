@@ -148,7 +148,7 @@ def _merged(curves: Sequence[MomentCurve]) -> list[MomentCurve]:
     others: list[MomentCurve] = []
     for curve in curves:
         if isinstance(curve, Section):
-            key = (curve.breaks.tobytes(), curve.coefficients.shape)
+            key = (curve.cells.breaks.tobytes(), curve.coefficients.shape)
             sections[key] = sections[key] + curve if key in sections else curve
         else:
             others.append(curve)

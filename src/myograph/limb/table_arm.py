@@ -10,6 +10,7 @@ from myograph.anatomy.model import Arm
 from myograph.case import MUSCLES, Case, Solution
 from myograph.limb.equilibrium import Equilibrium
 from myograph.limb.limb import Limb, arm_limb
+from myograph.limb.spline_moment import on_common_breaks
 from myograph.limb.tables.table import MuscleTable
 from myograph.units import degrees
 
@@ -43,7 +44,8 @@ class TableArm:
     @cached_property
     def limb(self) -> Limb:
         """The tables' moments about the elbow, the load and the stops."""
-        return arm_limb(self.arm, {name: self.tables[name] for name in MUSCLES}, self.gravity)
+        moments = on_common_breaks({name: self.tables[name].spline_moment for name in MUSCLES})
+        return arm_limb(self.arm, moments, self.gravity)
 
     def equilibria(self, case: Case) -> tuple[Equilibrium, ...]:
         """All angles at which the elbow could rest."""

@@ -19,7 +19,6 @@ import numpy as np
 
 from myograph.anatomy.hinge import Hinge
 from myograph.anatomy.model import ATTACHED, Arm, Bone, Contact
-from myograph.mechanics.law import positive
 
 _TENDON_AREA = 50.0
 """Section [mm²] above which obstacles are softer."""
@@ -80,7 +79,12 @@ def _bone_energy(bone: Bone, contact: Contact, skin: Skin, place: Field) -> Fiel
 
 def _on_tendon(contact: Contact, skin: Skin) -> Field:
     """Stiffness [N/mm³] that shrinks where the section grows beyond that of a tendon."""
-    return contact.tendon_stiffness * _TENDON_AREA / (_TENDON_AREA + positive(skin.area - _TENDON_AREA, 1.0))
+    return contact.tendon_stiffness * _TENDON_AREA / (_TENDON_AREA + _positive(skin.area - _TENDON_AREA))
+
+
+def _positive(value: Field) -> Field:
+    """Smooth positive part, over 1 mm²."""
+    return 0.5 * (value + ngs.sqrt(value * value + 1))
 
 
 def _ramp(share: Field) -> Field:

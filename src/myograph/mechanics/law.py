@@ -19,59 +19,51 @@ its quasi-definiteness and the factorisation without pivoting fails.
 
 from dataclasses import dataclass
 
-import ngsolve as ngs
-
 from myograph.anatomy.model import Muscle
-from myograph.materials.functions import Scalar
-from myograph.materials.functions import positive as positive_part
+from myograph.materials.functions import Functions, Scalar, positive
 from myograph.materials.invariants import Invariants
-from myograph.mechanics.functions import NGSOLVE, field_invariants
 
 _SLIM_SOFTNESS = 0.1
 
 
 @dataclass(frozen=True)
-class Site:
-    """What the law needs to know of a place: fibre direction, belly's fraction, section area [mm²]."""
+class Place:
+    """What the law needs to know of a place: fraction of belly (0 to 1), area of the section there [mm²]."""
 
-    fibre: ngs.CoefficientFunction
     fraction: Scalar
     area: Scalar
 
 
-def positive(value: Scalar, width: float) -> Scalar:
-    """Smooth positive part (v + sqrt(v² + width²)) / 2: never zero, slope 1/2 at zero."""
-    return positive_part(value, width, NGSOLVE)
-
-
 @dataclass(frozen=True)
 class MuscleLaw:
-    """The law of one muscle; `activation` and `ramp` (of the pre-stretch, 0 to 1) may be numbers or NGSolve
-    parameters."""
+    """The law of one muscle at an activation and a ramp of the pre-stretch (both 0 to 1).
+
+    `functions` are those of what it is evaluated with: numbers, jets, or anything else with + - * / **.
+    """
 
     muscle: Muscle
     activation: Scalar
     ramp: Scalar
+    functions: Functions
 
-    def energy(self, F: Scalar, pressure: Scalar, site: Site) -> Scalar:
-        """Energy per reference volume [MPa] of the deformation gradient and the pressure."""
-        at, belly = field_invariants(F, site.fibre), self.muscle.belly
-        prestretch = 1 + self.ramp * site.fraction * (self.muscle.tissue.prestretch - 1)
-        volume = pressure * belly.volume_strain(at.J, NGSOLVE) - pressure * pressure / (2 * belly.bulk_modulus)
-        share = site.fraction
-        return share * self._belly(at, prestretch, site) + (1 - share) * self._tendon(at, site) + volume
+    def energy(self, at: Invariants, pressure: Scalar, place: Place) -> Scalar:
+        """Energy per reference volume [MPa] of the invariants of F and the fibre, and of the pressure [MPa]."""
+        belly, share = self.muscle.belly, place.fraction
+        prestretch = 1 + self.ramp * share * (self.muscle.tissue.prestretch - 1)
+        volume = pressure * belly.volume_strain(at.J, self.functions) - pressure * pressure / (2 * belly.bulk_modulus)
+        return share * self._belly(at, prestretch, place) + (1 - share) * self._tendon(at, place) + volume
 
-    def _belly(self, at: Invariants, prestretch: Scalar, site: Site) -> Scalar:
-        tissue, law = self.muscle.tissue, self.muscle.belly
+    def _belly(self, at: Invariants, prestretch: Scalar, place: Place) -> Scalar:
+        tissue, law, f = self.muscle.tissue, self.muscle.belly, self.functions
         elastic = at.prestretched(prestretch)
-        matrix = law.matrix(elastic if tissue.prestretch_matrix else at, NGSOLVE)
-        fibre = self.ramp * (law.passive_fibre(elastic, NGSOLVE) + self.activation * law.active(elastic, NGSOLVE))
+        matrix = law.matrix(elastic if tissue.prestretch_matrix else at, f)
+        fibre = self.ramp * (law.passive_fibre(elastic, f) + self.activation * law.active(elastic, f))
         if not tissue.bundles:
             return matrix + fibre
-        slim = 1 + positive(tissue.full_area / site.area - 1, _SLIM_SOFTNESS)
-        return slim * matrix + tissue.pcsa / (site.area * prestretch) * fibre
+        slim = 1 + positive(tissue.full_area / place.area - 1, _SLIM_SOFTNESS, f)
+        return slim * matrix + tissue.pcsa / (place.area * prestretch) * fibre
 
-    def _tendon(self, at: Invariants, site: Site) -> Scalar:
-        tissue, law = self.muscle.tissue, self.muscle.tendon
-        share = tissue.tendon_area / site.area if tissue.bundles else 1.0
-        return law.matrix(at, NGSOLVE) + share * law.passive_fibre(at, NGSOLVE)
+    def _tendon(self, at: Invariants, place: Place) -> Scalar:
+        tissue, law, f = self.muscle.tissue, self.muscle.tendon, self.functions
+        share = tissue.tendon_area / place.area if tissue.bundles else 1.0
+        return law.matrix(at, f) + share * law.passive_fibre(at, f)

@@ -18,9 +18,6 @@ from myograph.mesh.muscle_mesh import MuscleMesh
 from myograph.mesh.presets import preset_mesh
 from myograph.units import degrees
 
-_MANY_CELLS = 300
-"""Elements from which on machine code for the energy is worth the time that it takes to make."""
-
 
 @dataclass(frozen=True)
 class MuscleState:
@@ -71,7 +68,7 @@ class FiniteElementMuscle:
         ngs.ngsglobals.msg_level = 0
         self.arm = arm
         self.mesh = preset_mesh(arm, name, preset) if mesh is None else mesh
-        self._problem = MuscleProblem(arm, name, self.mesh, native=len(self.mesh.cells) > _MANY_CELLS)
+        self._problem = MuscleProblem(arm, name, self.mesh)
         check_clear(self._problem)
         self._reader = FieldReader(self._problem)
 

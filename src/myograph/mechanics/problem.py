@@ -1,4 +1,4 @@
-"""The discrete muscle: total energy of displacement and pressure, its residual, its tangent, and its fields.
+"""The discrete muscle: total energy of displacement and pressure, its residual and its tangent.
 
 Unknowns: quadratic displacement [mm], continuous linear pressure [MPa]: Q2–Q1 on hexahedra, P2–P1 on tetrahedra. The
 origin's face is fixed; the insertion's face moves rigidly (mechanics/insertion.py).
@@ -9,19 +9,21 @@ from dataclasses import dataclass
 import ngsolve as ngs
 import numpy as np
 from jaxtyping import Float
-from ngsolve.comp import IntegrationRuleSpace
 
 from myograph.anatomy.model import Arm
+from myograph.materials.invariants import Invariants
+from myograph.materials.jets import JETS, Jet
 from myograph.mechanics.algebra import Tangent, as_array, derivative
-from myograph.mechanics.compiler import compiled
+from myograph.mechanics.assembly import Assembly
 from myograph.mechanics.contact import Skin, Turn, fixed_energy, turning_energy
-from myograph.mechanics.fibres import fibre_direction
+from myograph.mechanics.elements import mixed_elements
 from myograph.mechanics.insertion import Insertion
-from myograph.mechanics.law import MuscleLaw, Site
+from myograph.mechanics.law import MuscleLaw
 from myograph.mechanics.layout import LAYOUTS
+from myograph.mechanics.site import Site
+from myograph.mechanics.skin_form import SkinForm
 from myograph.mechanics.space import NodalSpace, nodal_space
 from myograph.mesh.muscle_mesh import MuscleMesh
-from myograph.mesh.tissue import tendon_share
 
 
 @dataclass(frozen=True)
@@ -42,11 +44,9 @@ class MuscleProblem:
         The muscle and where it lives.
     mesh
         Its mesh in the reference pose.
-    native
-        Translate the energy to machine code by the C++ compiler: worth its quarter of a minute on large meshes.
     """
 
-    def __init__(self, arm: Arm, name: str, mesh: MuscleMesh, *, native: bool = False) -> None:
+    def __init__(self, arm: Arm, name: str, mesh: MuscleMesh) -> None:
         self.arm, self.name, self.mesh = arm, name, mesh
         self.muscle, self.hinge = arm.muscles[name], arm.hinge.frame()
         self.insertion = Insertion(self.muscle, self.hinge, mesh)
@@ -56,61 +56,69 @@ class MuscleProblem:
         self._scratch = ngs.GridFunction(self.unknowns)
         self.free = as_array(self.unknowns.FreeDofs())
         self._factored: Tangent | None = None
-        self.law = MuscleLaw(self.muscle, self.controls.activation, self.controls.ramp)
-        self.site = self._material_site()
-        self._build_forms(native)
+        self.site = Site(arm, name, self.space)
+        self._build_energies()
 
     @property
     def vector_size(self) -> int:
         """Number of unknowns."""
         return int(self.unknowns.ndof)
 
-    def _material_site(self) -> Site:
-        """Fibre, fraction and area between the nodes too.
+    @property
+    def law(self) -> MuscleLaw:
+        """The law at the present activation and ramp."""
+        return MuscleLaw(self.muscle, self.controls.activation.Get(), self.controls.ramp.Get(), JETS)
 
-        Quadratics overshoot there: the fraction is clamped, the area interpolated by its logarithm.
-        """
-        fraction = self.space.field(1 - tendon_share(self.arm, self.name, self.mesh))
-        clamped = ngs.IfPos(fraction, ngs.IfPos(fraction - 1, 1.0, fraction), 0.0)
-        return Site(fibre_direction(self.space), clamped, ngs.exp(self.space.field(np.log(self.mesh.area))))
+    def _build_energies(self) -> None:
+        """The tissue, and what keeps it out of the bones."""
+        rule = LAYOUTS[self.mesh.element.kind].rule
+        at_points = self.site.at(rule)
 
-    def _build_forms(self, native: bool) -> None:
-        (u, p), _ = self.unknowns.TnT()
-        rule_space = IntegrationRuleSpace(self.space.mesh, order=LAYOUTS[self.mesh.element.kind].rule)
-        site = _at_integration_points(self.site, rule_space)
-        volume = ngs.dx(intrules=rule_space.GetIntegrationRules())
-        skin = ngs.ds("skin", intrules={kind: ngs.IntegrationRule(kind, 8) for kind in (ngs.QUAD, ngs.TRIG)})
-        self._energy = ngs.BilinearForm(self.unknowns)
-        self._energy += ngs.Variation(compiled(self.law.energy(ngs.Id(3) + ngs.Grad(u), p, site), native) * volume)
-        place = ngs.CoefficientFunction((ngs.x, ngs.y, ngs.z)) + u
+        def density(at: Invariants, pressure: Jet, points: slice) -> Jet:
+            return self.law.energy(at, pressure, at_points.place(points))
+
+        self.tissue = Assembly(mixed_elements(self.space.mesh, rule), at_points.fibre, density)
+        trial, _ = self.unknowns.TnT()
+        place = ngs.CoefficientFunction((ngs.x, ngs.y, ngs.z)) + trial[0]
         points = Skin(place, self.space.field(self.mesh.along), self.site.area)
-        ramp, fixed = self.controls.ramp, fixed_energy(self.arm, self.muscle.contact, points)
-        if fixed is not None:
-            self._energy += ngs.Variation((ramp * fixed).Compile() * skin)
+        fixed = fixed_energy(self.arm, self.muscle.contact, points)
         turning = turning_energy(self.arm, self.muscle.contact, points, self.controls.turn)
-        self._turning: ngs.BilinearForm | None = None
-        if turning is not None:
-            turning = (ramp * turning).Compile()
-            self._energy += ngs.Variation(turning * skin)
-            self._turning = ngs.BilinearForm(self.unknowns)
-            self._turning += ngs.Variation(turning * skin)
+        self._contacts = [form for form in (self._on_skin(fixed), self._on_skin(turning)) if form is not None]
+        self._turning = None if turning is None else self._contacts[-1]
+
+    def _on_skin(self, energy: ngs.CoefficientFunction | None) -> SkinForm | None:
+        """An energy per area of skin, ramped up with the pre-stretch."""
+        if energy is None:
+            return None
+        skin = ngs.ds("skin", intrules={kind: ngs.IntegrationRule(kind, 8) for kind in (ngs.QUAD, ngs.TRIG)})
+        form = ngs.BilinearForm(self.unknowns)
+        form += ngs.Variation((self.controls.ramp * energy).Compile() * skin)
+        return SkinForm(form, self.tissue.pattern)
 
     def energy(self, vector: Float[np.ndarray, " unknowns"]) -> float:
         """Total energy [N mm]."""
-        return float(self._energy.Energy(self._load(vector)))
+        state = self._load(vector)
+        return self.tissue.energy(vector) + sum(contact.form.Energy(state) for contact in self._contacts)
 
     def residual(self, vector: Float[np.ndarray, " unknowns"]) -> Float[np.ndarray, " unknowns"]:
         """Derivative of the energy over all unknowns, fixed ones included: force [N], volume [mm³]."""
-        return derivative(self._energy, self._load(vector))
+        state = self._load(vector)
+        return sum((derivative(contact.form, state) for contact in self._contacts), self.tissue.residual(vector))
 
     def tangent(self, vector: Float[np.ndarray, " unknowns"]) -> Tangent:
         """Second derivative of the energy, factored; good until the next one is asked for."""
-        self._energy.AssembleLinearization(self._load(vector))
+        self.assemble(vector)
         if self._factored is None:
-            self._factored = Tangent(self._energy.mat, self.unknowns.FreeDofs())
+            self._factored = Tangent(self.tissue.matrix, self.unknowns.FreeDofs())
         else:
             self._factored.refactor()
         return self._factored
+
+    def assemble(self, vector: Float[np.ndarray, " unknowns"]) -> None:
+        """Make the matrix of the tangent, not its factors."""
+        self.tissue.tangent(vector)
+        for contact in self._contacts:
+            contact.add_tangent(self._load(vector))
 
     def boundary_values(self, flexion: float) -> Float[np.ndarray, " unknowns"]:
         """Unknowns of the prescribed displacement at a flexion [rad] from the reference pose; zero elsewhere."""
@@ -124,7 +132,7 @@ class MuscleProblem:
         moment = -float(self.residual(vector) @ self._boundary_unknowns(self.insertion.rate(flexion)))
         if self._turning is not None:
             around = np.cross(-self.hinge.axis, self.positions(vector) - self.hinge.point)
-            moment += float(derivative(self._turning, self._load(vector)) @ self._vector_unknowns(around))
+            moment += float(derivative(self._turning.form, self._load(vector)) @ self._vector_unknowns(around))
         return moment
 
     def positions(self, vector: Float[np.ndarray, " unknowns"]) -> Float[np.ndarray, "nodes 3"]:
@@ -152,15 +160,3 @@ class MuscleProblem:
 def _unknown_space(space: NodalSpace) -> ngs.FESpace:
     displacement = ngs.VectorH1(space.mesh, order=2, dirichlet="origin|insertion")
     return displacement * ngs.H1(space.mesh, order=1)
-
-
-def _at_integration_points(site: Site, rule_space: IntegrationRuleSpace) -> Site:
-    """The site's fields looked up at the integration points instead of computed there for every derivative."""
-
-    def stored(function: ngs.CoefficientFunction) -> ngs.GridFunction:
-        values = ngs.GridFunction(rule_space)
-        values.Interpolate(function)
-        return values
-
-    fibre = ngs.CoefficientFunction(tuple(stored(site.fibre[k]) for k in range(3)))
-    return Site(fibre, stored(site.fraction), stored(site.area))

@@ -55,19 +55,17 @@ class NodalSpace:
         function.vec.FV().NumPy()[:] = self.to_unknowns @ nodal
         return function
 
-    def at_nodes(self, function: ngs.CoefficientFunction) -> Float[np.ndarray, "nodes components"]:
-        """Values at the nodes of anything that NGSolve can evaluate, recovered from inside the elements.
+    def recovered(self, values: Float[np.ndarray, "points components"]) -> Float[np.ndarray, "nodes components"]:
+        """At the nodes, from values at the points of `Layout.recovery` in every element, one after the other.
 
         Derivatives are most exact at the Gauss points of one order less and worst at the nodes themselves; so they
         are taken there, extrapolated linearly to each element's nodes, and averaged over the elements around a node.
         """
         cells, layout = self.muscle.cells, LAYOUTS[self.muscle.element.kind]
-        rule = ngs.IntegrationRule(layout.recovery.tolist(), [1.0] * len(layout.recovery))
-        values = np.asarray(function(self.mesh.MapToAllElements(rule, ngs.VOL)), dtype=float)
-        values = values.reshape(len(cells), len(layout.recovery), -1)
-        values = np.einsum("ng,cgk->cnk", layout.to_nodes, values).reshape(cells.size, -1)
+        inside = values.reshape(len(cells), len(layout.recovery.points), -1)
+        outwards = np.einsum("ng,cgk->cnk", layout.to_nodes, inside).reshape(cells.size, -1)
         count = np.bincount(cells.ravel(), minlength=len(self.muscle.points))
-        sums = [np.bincount(cells.ravel(), weights=column, minlength=len(count)) for column in values.T]
+        sums = [np.bincount(cells.ravel(), weights=column, minlength=len(count)) for column in outwards.T]
         return np.stack(sums, axis=1) / count[:, None]
 
 

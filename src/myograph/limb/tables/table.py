@@ -23,6 +23,8 @@ from myograph.units import degrees
 
 TOLERANCES = {"position": 1e-3, "cauchy_stress": 1e-4, "fibre_stretch": 1e-5, "pressure": 1e-4}
 """Largest error of an entry by compression (mm, MPa, 1, MPa): a fiftieth or less of what interpolation makes."""
+_BEFORE_ROUNDING = 0.95
+"""Share of the tolerances that compression may use; the rest is for modes in single precision."""
 
 
 @dataclass(frozen=True)
@@ -200,10 +202,10 @@ def compressed(states: Sequence[State], nodes: int) -> dict[str, Modes]:
     for name, rest in FIELDS_IN_TABLE.items():
         width = nodes * int(np.prod(rest, dtype=int))
         values = [state.fields[name].reshape(width) for state in states if not state.failure]
-        found = compress(np.stack(values) if values else np.zeros((1, width)), TOLERANCES[name])
+        found = compress(np.stack(values) if values else np.zeros((1, width)), _BEFORE_ROUNDING * TOLERANCES[name])
         coefficients = np.full((len(states), found.coefficients.shape[1]), np.nan)
         coefficients[solved] = found.coefficients[: solved.sum()]
-        modes[name] = Modes(found.mean, found.vectors, coefficients, found.largest_error)
+        modes[name] = Modes(found.mean, found.vectors, coefficients, found.largest_error).rounded()
     return modes
 
 

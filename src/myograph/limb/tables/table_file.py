@@ -93,7 +93,7 @@ def _table(arrays: _Arrays) -> MuscleTable:
 
 def _modes(arrays: _Arrays, field: str) -> Modes:
     mean, vectors, coefficients = (arrays[f"{field}_{name}"] for name in _MODES[:3])
-    return Modes(mean, vectors, coefficients, float(arrays[f"{field}_largest_error"]))
+    return Modes(mean, vectors, coefficients, float(arrays[f"{field}_largest_error"])).rounded()
 
 
 def _check(table: MuscleTable, arrays: _Arrays) -> None:

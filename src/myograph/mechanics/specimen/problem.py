@@ -15,11 +15,18 @@ from jaxtyping import Bool, Float
 from ngsolve.krylovspace import GMRes
 
 from myograph.errors import InputError
-from myograph.mechanics.functions import NGSOLVE, field_invariants
+from myograph.materials.invariants import Invariants
+from myograph.materials.jets import JETS, Jet
+from myograph.mechanics.algebra import derivative
+from myograph.mechanics.assembly import Assembly
+from myograph.mechanics.elements import mixed_elements
+from myograph.mechanics.skin_form import SkinForm
 from myograph.mechanics.specimen.description import Load, Specimen, check_faces
 from myograph.mechanics.specimen.mesh import CurvedMesh, curved_mesh
 
 _AXES = "xyz"
+_ORDER = 5
+"""Polynomials that the rule of integration is exact for: three Gauss points along each edge of a hexahedron."""
 _LINEAR_TOLERANCE = 1e-10
 """Residual of the linear equations over their right side, where they are solved by iteration."""
 _SAME = 1e-9
@@ -46,7 +53,8 @@ class SpecimenProblem:
         _require_support(self.body.vertices, ~self.free_vertices)
         self.prescribed = self._prescribed()
         self._scratch = ngs.GridFunction(self.unknowns)
-        self._form = self._build_form()
+        self.tissue = self._build_tissue()
+        self._loads = self._build_loads()
 
     @property
     def free_vertices(self) -> Bool[np.ndarray, "vertices 3"]:
@@ -59,23 +67,19 @@ class SpecimenProblem:
         scalar = self.unknowns.components[0].components[0]
         return np.array(list(scalar.GetDofs(self.body.mesh.Boundaries(face))), dtype=bool)
 
-    def energy_density(self, F: ngs.CoefficientFunction, pressure: ngs.CoefficientFunction) -> ngs.CoefficientFunction:
-        """W [MPa] at the applied share of the activation."""
-        at = field_invariants(F, ngs.CoefficientFunction(self.specimen.fibre))
-        return self.specimen.law.mixed_energy(at, pressure, self.share * self.load.activation, NGSOLVE)
-
     def residual(self, vector: Float[np.ndarray, " unknowns"]) -> Float[np.ndarray, " unknowns"]:
         """Internal minus applied forces [N], fixed unknowns included, then the volume constraint [mm³]."""
-        result = self._scratch.vec.CreateVector()
-        self._form.Apply(self._loaded(vector), result)
-        return result.FV().NumPy().copy()
+        internal = self.tissue.residual(vector)
+        return internal if self._loads is None else internal + derivative(self._loads.form, self._loaded(vector))
 
     def linear_step(
         self, vector: Float[np.ndarray, " unknowns"], increment: Float[np.ndarray, " unknowns"]
     ) -> Float[np.ndarray, " unknowns"]:
         """Newton's change of the unknowns; the prescribed increment enters here, so that the body follows it."""
-        self._form.AssembleLinearization(self._loaded(vector))
-        matrix = self._form.mat
+        self.tissue.tangent(vector)
+        if self._loads is not None:
+            self._loads.add_tangent(self._loaded(vector))
+        matrix = self.tissue.matrix
         moved, right = self._scratch.vec.CreateVector(), self._scratch.vec.CreateVector()
         moved.FV().NumPy()[:] = increment
         right.data = matrix * moved
@@ -87,12 +91,6 @@ class SpecimenProblem:
         else:
             moved.data -= inverse * right
         return moved.FV().NumPy().copy()
-
-    def state(self, vector: Float[np.ndarray, " unknowns"]) -> ngs.GridFunction:
-        """The unknowns as functions: displacement and pressure."""
-        function = ngs.GridFunction(self.unknowns)
-        function.vec.FV().NumPy()[:] = vector
-        return function
 
     def _held_faces(self) -> list[list[str]]:
         """Names of the faces on which each component is prescribed."""
@@ -137,10 +135,23 @@ class SpecimenProblem:
             )
         values[k, on_face] = value
 
-    def _build_form(self) -> ngs.BilinearForm:
-        (u, p), (v, _) = self.unknowns.TnT()
+    def _build_tissue(self) -> Assembly:
+        """W at the applied share of the activation."""
+        kind = ngs.HEX if self.specimen.element == "hexahedra" else ngs.TET
+        elements = mixed_elements(self.body.mesh, ngs.IntegrationRule(kind, _ORDER))
+        fibre = np.repeat(np.array(self.specimen.fibre, dtype=float)[:, None], elements.weights.size, axis=1)
+
+        def density(at: Invariants, pressure: Jet, _: slice) -> Jet:
+            return self.specimen.law.mixed_energy(at, pressure, self.share.Get() * self.load.activation, JETS)
+
+        return Assembly(elements, fibre, density)
+
+    def _build_loads(self) -> SkinForm | None:
+        """Forces on faces; None without any."""
+        if not self.load.traction and not self.load.pressure:
+            return None
+        (u, _), (v, _) = self.unknowns.TnT()
         form = ngs.BilinearForm(self.unknowns)
-        form += ngs.Variation(self.energy_density(ngs.Id(3) + ngs.Grad(u), p).Compile() * ngs.dx)
         for face, traction in self.load.traction.items():
             work = self.share * ngs.InnerProduct(ngs.CoefficientFunction(tuple(traction)), u)
             form += ngs.Variation(-work.Compile() * ngs.ds(face))
@@ -148,7 +159,7 @@ class SpecimenProblem:
             along_face = ngs.Id(3) + ngs.Grad(u).Trace()
             push = ngs.InnerProduct(ngs.Cof(along_face) * ngs.specialcf.normal(3), v)
             form += (self.share * pressure * push).Compile() * ngs.ds(face)
-        return form
+        return SkinForm(form, self.tissue.pattern)
 
     def _loaded(self, vector: Float[np.ndarray, " unknowns"]) -> ngs.BaseVector:
         self._scratch.vec.FV().NumPy()[:] = vector

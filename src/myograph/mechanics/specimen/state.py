@@ -2,17 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
-import ngsolve as ngs
 import numpy as np
 from jaxtyping import Bool, Float
 
 from myograph.errors import InputError
 from myograph.mechanics.specimen.problem import SpecimenProblem
 
-_ORDER = 5
-"""Polynomials that the sampling rule integrates exactly: three Gauss points along each edge of a hexahedron."""
 _SAME_PLACE = 1e-6
 """Distance over the body's size up to which a point is a vertex."""
 
@@ -130,21 +126,16 @@ def read_state(
 
 def smallest_volume_ratio(problem: SpecimenProblem, vector: Float[np.ndarray, " unknowns"]) -> float:
     """Smallest J = det F over the integration points."""
-    F = ngs.Id(3) + ngs.Grad(problem.state(vector).components[0])
-    return float(np.min(np.asarray(ngs.Det(F)(_points(problem)))))
+    return float(np.linalg.det(problem.tissue.deformation_gradient(vector)).min())
 
 
 def _samples(problem: SpecimenProblem, vector: Float[np.ndarray, " unknowns"]) -> Samples:
-    state = problem.state(vector)
-    F = (ngs.Id(3) + ngs.Grad(state.components[0])).MakeVariable()
-    P = problem.energy_density(F, state.components[1]).Diff(F)
-    stress = P * F.trans / ngs.Det(F)
-    density = ngs.sqrt(ngs.Det(ngs.specialcf.JacobianMatrix(3)) ** 2)
-    place = ngs.CoefficientFunction((ngs.x, ngs.y, ngs.z))
-    points = _points(problem)
-    values = [np.asarray(function(points)) for function in (place, density, state.components[0], F, stress)]
-    weights = np.tile(_rule(problem).weights, problem.body.mesh.ne) * values[1].ravel()
-    return Samples(values[0], weights, values[2], values[3].reshape(-1, 3, 3), values[4].reshape(-1, 3, 3))
+    elements = problem.tissue.elements
+    place, displacement = (
+        elements.interpolated(components) for components in (problem.body.place, _by_component(problem, vector))
+    )
+    F, stress = problem.tissue.deformation_gradient(vector), problem.tissue.cauchy_stress(vector)
+    return Samples(place, elements.weights.ravel(), displacement, F, stress)
 
 
 def _reactions(problem: SpecimenProblem, vector: Float[np.ndarray, " unknowns"]) -> dict[str, np.ndarray]:
@@ -157,11 +148,3 @@ def _reactions(problem: SpecimenProblem, vector: Float[np.ndarray, " unknowns"])
 
 def _by_component(problem: SpecimenProblem, vector: Float[np.ndarray, " unknowns"]) -> Float[np.ndarray, "3 component"]:
     return vector[: 3 * problem.size].reshape(3, -1)
-
-
-def _rule(problem: SpecimenProblem) -> ngs.IntegrationRule:
-    return ngs.IntegrationRule(ngs.HEX if problem.specimen.element == "hexahedra" else ngs.TET, _ORDER)
-
-
-def _points(problem: SpecimenProblem) -> Any:
-    return problem.body.mesh.MapToAllElements(_rule(problem), ngs.VOL)

@@ -1,4 +1,4 @@
-"""The elementary functions and the invariants of laws, for NGSolve's CoefficientFunctions.
+"""The elementary functions and the invariants of laws for NGSolve, the judge of our derivatives.
 
 NGSolve differentiates what a law builds from them, twice where a tangent is wanted.
 """
