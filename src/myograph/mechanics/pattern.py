@@ -7,12 +7,17 @@ Element matrices come in the order in which they are multiplied out, so that not
     pressure      [cell, c, d]
 """
 
+from typing import Any
+
 import ngsolve as ngs
 import numpy as np
 import scipy.sparse as sparse
 from jaxtyping import Float
 
 from myograph.mechanics.elements import Elements
+
+_SPARSE: Any = ngs.la.SparseMatrixd
+"""Takes NumPy's arrays, which its declared types do not say."""
 
 
 class Pattern:
@@ -24,7 +29,7 @@ class Pattern:
         places, where = np.unique(_as_multiplied(keys, elements), return_inverse=True)
         self._size, self._keys = size, places
         rows, columns = np.divmod(places, size)
-        self.matrix = ngs.la.SparseMatrixd.CreateFromCOO(rows, columns, np.zeros(len(places)), size, size)
+        self.matrix: ngs.BaseMatrix = _SPARSE.CreateFromCOO(rows, columns, np.zeros(len(places)), size, size)
         entries, shape = np.arange(where.size), (len(places), where.size)
         self._scatter = sparse.csr_array((np.ones(where.size), (where.ravel(), entries)), shape=shape)
 
@@ -32,8 +37,8 @@ class Pattern:
         """Set the matrix to the sum of the element matrices, one after the other."""
         self._values[:] = self._scatter @ element_matrices
 
-    def places(self, other: ngs.BaseMatrix) -> np.ndarray:
-        """Numbers of another matrix's entries, whose places are some of these, among the entries here."""
+    def places(self, other: Any) -> np.ndarray:
+        """Numbers of another sparse matrix's entries, whose places are some of these, among the entries here."""
         _, columns, starts = other.CSR()
         rows = np.repeat(np.arange(self._size), np.diff(np.asarray(starts).astype(np.int64)))
         return np.searchsorted(self._keys, rows * self._size + np.asarray(columns).astype(np.int64))
