@@ -46,7 +46,13 @@ def _fresh(root: Path) -> bool:
     if not all((root / path).is_file() for path in BUILT):
         return False
     built = min((root / path).stat().st_mtime for path in BUILT)
-    sources = [web / "index.html", *web.glob("*.json"), *web.glob("*.ts"), *web.glob("*.mjs"), *(web / "src").rglob("*")]
+    sources = [
+        web / "index.html",
+        *web.glob("*.json"),
+        *web.glob("*.ts"),
+        *web.glob("*.mjs"),
+        *(web / "src").rglob("*"),
+    ]
     return all(path.stat().st_mtime <= built for path in sources if path.is_file())
 
 

@@ -97,7 +97,8 @@ def _options() -> tuple[Options, bool]:
     return Options(**{key: tuple(value) if isinstance(value, list) else value for key, value in told.items()}), as_json
 
 
-def _learner(method: str, seed: int, seconds: float) -> Learner:
+def learner_of(method: str, seed: int, seconds: float) -> Learner:
+    """The baseline of that name; `seconds` ends the training of a network."""
     limits = {"seed": seed, "seconds": seconds}
     if method == "feed_forward":
         return FeedForward(training=FEED_FORWARD_TRAINING.model_copy(update=limits))
@@ -114,7 +115,7 @@ def _measure(cases: MuscleCases, method: str, protocol: Protocol, seed: int, opt
     split = split_pairs(cases, protocol, seed)
     cases.values("position", np.unique(split.train.target))
     started = time.perf_counter()
-    predictor = _learner(method, seed, options.seconds).fit(sampler, split)
+    predictor = learner_of(method, seed, options.seconds).fit(sampler, split)
     seconds = time.perf_counter() - started
     drawn = np.random.default_rng(seed).permutation(len(split.test))[: options.pairs]
     found = evaluate(predictor, sampler.batches(split.test[np.sort(drawn)])).summary()

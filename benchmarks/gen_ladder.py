@@ -37,6 +37,9 @@ ROWS: dict[str, NetworkConfig] = {
     "mlp": NetworkConfig(processor="mlp"),
     "mpnn": NetworkConfig(processor="mpnn"),
     "per-node sharpness": NetworkConfig(sharpness="per_node"),
+    "fixed sharpness": NetworkConfig(sharpness="fixed"),
+    "material": NetworkConfig(),
+    "stress heads": NetworkConfig(outputs=(("displacement",), ("von_mises",))),
     "nearest, 4 nodes": NetworkConfig(representer="nearest", nearest=4),
     "context": NetworkConfig(context=True),
     "modulated": NetworkConfig(modulated=True),
@@ -44,6 +47,8 @@ ROWS: dict[str, NetworkConfig] = {
     "activation": NetworkConfig(activation_input=True, reads="sensors_and_activation"),
     "improved": NetworkConfig.improved(),
 }
+MATERIAL = {"material"}
+"""Rows that name points by where they are in the reference body; all others do by where they were at first."""
 
 
 def main() -> None:
@@ -51,10 +56,12 @@ def main() -> None:
     asked = _arguments()
     torch.set_num_threads(1)
     cases = read_muscle(asked.store, asked.muscle)
-    sampler = PairSampler(cases, random_sensors(cases.nodes))
     found: dict[str, dict[str, list[float]]] = {}
     for name in asked.rows or ROWS:
         network = ROWS[name].model_copy(update={"nodes_per_axis": asked.nodes_per_axis})
+        convention = "material" if name in MATERIAL else "initial"
+        fields = ("position", "von_mises") if ("von_mises",) in network.outputs else ("position",)
+        sampler = PairSampler(cases, random_sensors(cases.nodes), convention, asked=fields)
         found[name] = {}
         for protocol in asked.protocol:
             split = split_pairs(cases, protocol)

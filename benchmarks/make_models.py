@@ -11,14 +11,14 @@ Any of them may be left out: what lies there stays. Models are taught by the pro
 the training cases, which teach nothing. The truth of the biceps should be of finite elements (simulator 'direct'), with
 cases of the design 'off_grid' and the 32 factorial ones; a truth has the sizes of bodies of the store that teaches.
 Of the truth of the biceps one half of the cases off the grid, drawn at random, becomes the truth that is shipped; with
---biceps, the other half says how far the angle of its network is off, and how wide its intervals must be, as those who
-ask by activations meet it.
+--biceps, the other half says how far the angle of its network is off, and how wide its intervals must be for each way
+of asking it: by activations, by sensors, by both.
 """
 
 import argparse
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -26,19 +26,16 @@ import torch
 
 from myograph.case import MUSCLES
 from myograph.ensemble.muscle_cases import MuscleCases
-from myograph.ensemble.pairs.predictor import Predictor
 from myograph.ensemble.pairs.protocols import FACTORIAL, OFF_GRID, PROTOCOLS, PairSet, Split, split_pairs
-from myograph.ensemble.pairs.question import Answer, Question
 from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
 from myograph.ensemble.store.reading import read_muscle
 from myograph.evaluation import evaluate
-from myograph.inference.ways import without_sensors
 from myograph.inference.truth import write_truth
 from myograph.learning.gen.config import NetworkConfig
 from myograph.learning.gen.learner import GenLearner
 from myograph.learning.modes.arm import fit_arm
-from myograph.learning.modes.chebyshev import RANGE
 from myograph.learning.modes.config import ModesConfig
+from myograph.learning.modes.fitting import measure_angle
 from myograph.learning.modes.learner import ModesLearner
 from myograph.learning.modes.module import ModesModule
 from myograph.learning.saving import Training, save_model
@@ -47,7 +44,9 @@ from myograph.learning.training import TrainingConfig
 from myograph.learning.trust.calibrated import CalibratedLearner, CalibratedPredictor, calibrate, hold_out
 
 ASKED = ("position", "von_mises")
-ARM = ModesConfig(reads="both", stress="von_mises", kept="float16", modes=16)
+SHOWN = (*ASKED, "fibre_stretch")
+"""What the arm answers, beside what it is judged by: what the page colours by."""
+ARM = ModesConfig(reads="both", stress="von_mises", kept="float16", modes=16, modes_of={"fibre_stretch": 8})
 BICEPS = ModesConfig(reads="both", stress="von_mises", kept="float16", modes=20)
 GEN = NetworkConfig.improved().model_copy(update={"latent": 32, "hidden": (32, 32)})
 STEPS = TrainingConfig(steps=4000, queries=128)
@@ -82,7 +81,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def make_arm(store: Path, out: Path) -> None:
     """Five models that share one network for the elbow's angle."""
     started = time.perf_counter()
-    samplers = {muscle: _sampler(store, muscle) for muscle in MUSCLES}
+    samplers = {muscle: _sampler(store, muscle, SHOWN) for muscle in MUSCLES}
     split = split_pairs(samplers[MUSCLES[0]].cases, "strict")
     rest, held_out = hold_out(samplers[MUSCLES[0]].cases, split, CalibratedLearner.share, 0)
     found = fit_arm(ModesLearner(ARM), samplers, rest)
@@ -129,40 +128,21 @@ def _halves(cases: MuscleCases) -> tuple[np.ndarray, np.ndarray]:
     return shuffled[: len(shuffled) // 2], shuffled[len(shuffled) // 2 :]
 
 
-@dataclass(frozen=True)
-class _Unsensed:
-    """A model that is not told what sensors see."""
-
-    model: Predictor
-    name: str = "unsensed"
-
-    @property
-    def fields(self) -> tuple[str, ...]:
-        return self.model.fields
-
-    def predict(self, question: Question) -> Answer:
-        return self.model.predict(without_sensors(question))
-
-
 def _against_truth(calibrated: CalibratedPredictor, sampler: PairSampler) -> CalibratedPredictor:
     """The deviation of its angle, and its factors, from cases of the truth that are not shipped."""
     cases, model = sampler.cases, calibrated.predictor
     assert isinstance(model, TorchPredictor)
     assert isinstance(model.module, ModesModule)
-    module, chosen = model.module, _halves(cases)[0]
-    assert module.angle is not None
-    low, high = module.angle_range.tolist()
-    told = (torch.tensor(array[chosen], dtype=torch.float32) for array in (cases.activation, cases.hand_load))
-    with torch.no_grad():
-        missed = module.angle(*told)[0].numpy() - RANGE * (2 * cases.elbow_angle[chosen] - low - high) / (high - low)
-    module.angle_misfit.fill_(float(np.sqrt(np.square(missed).mean())))
+    chosen = _halves(cases)[0]
+    measure_angle(model.module, cases, chosen)
     split = Split("off_grid", PairSet(chosen, chosen), np.zeros((0, 2), dtype=np.int64))
-    return replace(calibrated, factors=calibrate(_Unsensed(model), sampler, split, chosen).factors)
+    found = calibrate(model, sampler, split, chosen)
+    return replace(calibrated, factors=found.factors, factors_from=found.factors_from)
 
 
-def _sampler(store: Path, muscle: str) -> PairSampler:
+def _sampler(store: Path, muscle: str, asked: tuple[str, ...] = ASKED) -> PairSampler:
     cases = read_muscle(store, muscle)
-    return PairSampler(cases, random_sensors(cases.nodes), "material", asked=ASKED)
+    return PairSampler(cases, random_sensors(cases.nodes), "material", asked=asked)
 
 
 def _save(model: CalibratedPredictor, sampler: PairSampler, taught: Split, seconds: float, out: Path) -> None:
@@ -179,6 +159,7 @@ def _save(model: CalibratedPredictor, sampler: PairSampler, taught: Split, secon
         seconds=seconds,
         metrics=metrics,
         half_width_90=model.factors,
+        half_width_90_from=model.factors_from,
         residual_mm=model.residual_mm,
         limits=LIMITS if "von_mises" in model.fields else (),
     )

@@ -26,8 +26,9 @@ from myograph.ensemble.store.reading import read_muscle
 from myograph.learning.modes.config import ModesConfig
 from myograph.learning.modes.learner import ModesLearner, reading
 from myograph.learning.modes.volume import volume_ratios
-from myograph.learning.trust.calibrated import CalibratedLearner, calibrate, distance, hold_out
+from myograph.learning.trust.calibrated import CalibratedLearner, calibrate, hold_out
 from myograph.learning.trust.coverage import Coverage, coverage
+from myograph.learning.trust.scores import distance
 
 OPTIONS: dict[str, dict[str, object]] = {
     "activations": {"reads": "activation"},

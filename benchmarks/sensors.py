@@ -25,8 +25,8 @@ from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
 from myograph.ensemble.store.reading import read_muscle
 from myograph.learning.modes.config import ModesConfig
 from myograph.learning.modes.learner import ModesLearner, reading
-from myograph.learning.trust.calibrated import distance
 from myograph.learning.trust.placing import qr_sensors
+from myograph.learning.trust.scores import distance
 
 NOISES, LOSSES = (0.0, 0.1, 0.5, 1.0), (0, 1, 2, 3, 4, 5)
 LEAST_NOISE = 0.01

@@ -1,4 +1,4 @@
-"""The pictures of docs/page.md: the page of the shipped arm in Debian's chromium.
+"""The pictures of docs/page.md: the pages of the shipped arm and of the shipped network in Debian's chromium.
 
     python docs/draw_page.py [--truth STORE]
 
@@ -26,6 +26,16 @@ SHOWN = {
     "deviation": f"set({FLEXED}, 0), myograph.page.show('deviation')",
     "outside": f"set({FLEXED}, 50), myograph.page.show('muscle')",
 }
+NETWORK = """new Promise(done => {
+    const { page } = myograph, { network } = page.arm;
+    page.set([0.6, 0.7, 0.8, 0, 0], 0);
+    page.drawBy('difference');
+    for (const name of ['9 sensors', '8 learned nodes']) {
+        [...document.querySelectorAll('.check')].find(check => check.textContent === `its ${name}`).click();
+    }
+    document.activeElement.blur();
+    const look = () => network.settled ? done() : setTimeout(look, 20);
+    look(); })"""
 COLOURS = 256
 FRAMES = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))"
 
@@ -37,9 +47,10 @@ def main() -> None:
     asked = parser.parse_args()
     chromium = shutil.which("chromium")
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as started:
-        path = Path(folder) / "page.html"
+        path, network = Path(folder) / "page.html", Path(folder) / "network.html"
         truth = [] if asked.truth is None else ["--truth", str(asked.truth)]
-        subprocess.run([sys.executable, "-m", "myograph", "view", "--out", str(path), *truth], check=True)
+        _write(path, *truth)
+        _write(network, "gen-biceps")
         browser = started.chromium.launch(executable_path=chromium, args=FLAGS)
         page = browser.new_page(viewport={"width": 1100, "height": 760})
         _open(page, path)
@@ -49,6 +60,9 @@ def main() -> None:
         if truth:
             page.evaluate("myograph.page.show('error'), myograph.page.compare('4')")
             _keep(page, "error")
+        _open(page, network)
+        page.evaluate(NETWORK)
+        _keep(page, "network")
         context = browser.new_context(
             viewport={"width": 390, "height": 780}, is_mobile=True, has_touch=True, color_scheme="dark"
         )
@@ -57,6 +71,10 @@ def main() -> None:
         phone.evaluate(f"myograph.page.{SHOWN['stress']}")
         _keep(phone, "phone")
         browser.close()
+
+
+def _write(path: Path, *words: str) -> None:
+    subprocess.run([sys.executable, "-m", "myograph", "view", *words, "--out", str(path)], check=True)
 
 
 def _open(page: Page, path: Path) -> None:

@@ -24,9 +24,11 @@ from run_peer import errors
 
 import myograph
 from myograph.ensemble.muscle_cases import MuscleCases
+from myograph.ensemble.pairs.predictor import Predictor
 from myograph.ensemble.pairs.protocols import PROTOCOLS, Protocol, split_pairs
 from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
 from myograph.fields import von_mises
+from myograph.files import write_whole
 from myograph.learning.learners import Asked, make_learner
 
 HERE = Path(__file__).parent
@@ -57,11 +59,17 @@ COLUMNS = (
 PAGE = """# Peers, one run
 
 Written by `compare.py` from [peers.json](peers.json): at most {seconds:g} s of learning where a method is trained by
-steps, {seeds} seed(s), {load:.0f} jobs at once on the machine (times, and errors of what is trained by the clock, are
-worse for that), data {data}.
+steps, means over {seeds} seed(s), one thread each, data {data}.
+The limit and `train_s` are the processor's seconds, so that a busy machine takes nothing from anybody ({load:.0f} jobs
+at once as this ended); `predict_ms` is by the clock on the wall. Ours get as many steps as fit into the limit.
 What is alike and what is not: [README.md](README.md). `install_mb` is the package alone, without what it depends on.
 
 """
+Rows = dict[tuple[str, str], dict[str, object]]
+SPREAD = "mean_mm"
+"""The figure whose deviation over the seeds is shown."""
+PROBES = (5, 35)
+"""Steps of two short trainings: their difference says how many fit into the limit."""
 PATIENCE = 600.0
 """Beyond the time to learn [s], until a peer is given up."""
 
@@ -73,10 +81,18 @@ def ours(name: str, cases: MuscleCases, protocol: Protocol, asked: argparse.Name
     convention = "initial" if method == "gen_thesis" else "material"
     sampler = PairSampler(cases, random_sensors(cases.nodes), convention, asked=("position", *stress))
     split = split_pairs(cases, protocol, seed)
-    training = {"seconds": asked.seconds, "steps": 1_000_000, "seed": seed} if method in STEPPED else {}
-    started = time.perf_counter()
-    predictor = make_learner(Asked(method, options, training)).fit(sampler, split)
-    train_s = time.perf_counter() - started
+    training: dict[str, object] = {"seed": seed} if method in STEPPED else {}
+
+    def fit(**more: object) -> tuple[Predictor, float]:
+        started = time.process_time()
+        fitted = make_learner(Asked(method, options, training | more)).fit(sampler, split)
+        return fitted, time.process_time() - started
+
+    steps = {}
+    if training:
+        few, many = (fit(steps=count)[1] for count in PROBES)
+        steps = {"steps": max(1, int(asked.seconds * (PROBES[1] - PROBES[0]) / (many - few)))}
+    predictor, train_s = fit(**steps)
     targets = np.unique(split.test[:, 1])
     pairs = np.array([split.test[np.flatnonzero(split.test[:, 1] == target)[0]] for target in targets])
     answers = [predictor.predict(batch.question).values for batch in sampler.batches(pairs)]
@@ -120,6 +136,7 @@ def peer(name: str, cases: Path, protocol: str, asked: argparse.Namespace, seed:
             text=True,
             check=False,
             timeout=asked.seconds + PATIENCE,
+            env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
         )
     except subprocess.TimeoutExpired:
         return {"reason": f"no answer within {asked.seconds + PATIENCE:.0f} s"}
@@ -130,19 +147,24 @@ def peer(name: str, cases: Path, protocol: str, asked: argparse.Namespace, seed:
 
 
 def mean_of(measured: list[dict[str, object]]) -> dict[str, object]:
-    """Means over the seeds; a reason stays one."""
-    if "reason" in measured[0]:
+    """Means over the seeds that answered, and how far they scatter; a reason where none did."""
+    answered = [own for own in measured if "reason" not in own]
+    if not answered:
         return measured[0]
-    first = measured[0]
-    numeric = {key for key in first if isinstance(first[key], float)}
-    return {key: float(np.mean([own[key] for own in measured])) if key in numeric else first[key] for key in first}  # type: ignore[arg-type]
+    found = dict(answered[0])
+    for key in [key for key, value in found.items() if isinstance(value, float)]:
+        values = np.array([own[key] for own in answered], dtype=float)
+        found[key] = float(values.mean())
+        if key == SPREAD and len(values) > 1:
+            found[f"{key}_std"] = float(values.std())
+    return {**found, "answered": len(answered)}
 
 
 def table(rows: list[dict[str, object]]) -> str:
     """Markdown."""
     lines = [["method", "protocol", *COLUMNS], ["---"] * (len(COLUMNS) + 2)]
     for row in rows:
-        told = [f"not measured: {row['reason']}"] if "reason" in row else [_short(row.get(key)) for key in COLUMNS]
+        told = [f"not measured: {row['reason']}"] if "reason" in row else [_cell(row, key) for key in COLUMNS]
         lines.append([str(row["name"]), str(row["protocol"]), *told])
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
@@ -151,6 +173,11 @@ def page(told: dict[str, object]) -> str:
     """The table with what it was made from."""
     rows: list[dict[str, object]] = told["rows"]  # type: ignore[assignment]
     return PAGE.format(**told) + table(rows) + "\n"
+
+
+def _cell(row: dict[str, object], key: str) -> str:
+    spread = row.get(f"{key}_std")
+    return _short(row.get(key)) + (f" ± {_short(spread)}" if spread is not None else "")
 
 
 def _short(value: object) -> str:
@@ -174,7 +201,9 @@ def main() -> None:
     parser.add_argument("--out", type=Path)
     asked = parser.parse_args()
     torch.set_num_threads(1)
-    cases, rows = cases_of(asked.store, asked.support), []
+    cases = cases_of(asked.store, asked.support)
+    about = {"seconds": asked.seconds, "seeds": asked.seeds, "data": cases.checksum}
+    rows = kept(asked.out, about)
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder) / f"{seed}.npz" for seed in range(asked.seeds)]
         for seed, file in enumerate(files):
@@ -187,14 +216,32 @@ def main() -> None:
                     else peer(name, file, protocol, asked, seed)
                     for seed, file in enumerate(files)
                 ]
-                rows.append({"name": name, "protocol": protocol, **mean_of(measured)})
-                print(table(rows[-1:]).splitlines()[-1], flush=True)
-    told = {"seconds": asked.seconds, "seeds": asked.seeds, "load": os.getloadavg()[0], "data": cases.checksum}
-    told |= {"rows": rows}
-    if asked.out:
-        asked.out.write_text(json.dumps(told, indent=1) + "\n")
-        asked.out.with_suffix(".md").write_text(page(told))
-    print(table(rows))
+                rows[name, protocol] = {"name": name, "protocol": protocol, **mean_of(measured)}
+                print(table([rows[name, protocol]]).splitlines()[-1], flush=True)
+                write(asked.out, {**about, "load": os.getloadavg()[0], "rows": in_order(rows)})
+    print(table(in_order(rows)))
+
+
+def kept(out: Path | None, about: dict[str, object]) -> Rows:
+    """Rows of an earlier run on the same cases with the same limits; those that are asked for are measured again."""
+    if out is None or not out.exists():
+        return {}
+    told = json.loads(out.read_text())
+    same = all(told.get(key) == value for key, value in about.items())
+    return {(row["name"], row["protocol"]): row for row in told["rows"]} if same else {}
+
+
+def in_order(rows: Rows) -> list[dict[str, object]]:
+    """Ours, then the peers."""
+    names = [*OURS, *PEERS]
+    return [rows[key] for key in sorted(rows, key=lambda key: (names.index(key[0]), key[1] != "strict"))]
+
+
+def write(out: Path | None, told: dict[str, object]) -> None:
+    """Results and their page, each whole."""
+    if out is not None:
+        for path, text in ((out, json.dumps(told, indent=1) + "\n"), (out.with_suffix(".md"), page(told))):
+            write_whole(path, lambda file, text=text: file.write(text.encode()))
 
 
 if __name__ == "__main__":

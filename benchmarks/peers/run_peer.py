@@ -45,9 +45,9 @@ def run(adapter: str, cases: Path, protocol: str, seconds: float, seed: int) -> 
     fields = [data[name][taught] for name in ("activation", "position", "von_mises")]
     task = Task(*fields, data["reference"], data["cells"], seconds, seed)
     try:
-        started = time.perf_counter()
+        started = time.process_time()
         predict = module.fit(task)
-        learning = time.perf_counter() - started
+        learning = time.process_time() - started
         answer = predict(data["activation"][tested])
     except Exception as problem:
         return {"reason": " ".join(f"{type(problem).__name__}: {problem}".split())}

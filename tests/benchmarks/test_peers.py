@@ -91,3 +91,21 @@ def test_the_kept_table_has_every_method(peers):
     names = {row["name"] for row in told["rows"]}
     assert names == {*peers["compare"].OURS, *peers["compare"].PEERS}
     assert (PEERS / "peers.md").read_text() == peers["compare"].page(told)
+
+
+def test_seeds_become_a_mean_and_a_deviation_and_one_that_failed_does_not_count(peers):
+    measured = [{"mean_mm": 1.0, "reads": "sensors"}, {"reason": "no way"}, {"mean_mm": 3.0, "reads": "sensors"}]
+    found = peers["compare"].mean_of(measured)
+    assert found == {"mean_mm": 2.0, "mean_mm_std": 1.0, "reads": "sensors", "answered": 2}
+    assert "| 2 ± 1 |" in peers["compare"].table([{"name": "a", "protocol": "strict", **found}])
+    assert peers["compare"].mean_of([{"reason": "no way"}] * 2) == {"reason": "no way"}
+
+
+def test_rows_of_another_run_are_kept_where_cases_and_limits_are_the_same(peers, tmp_path):
+    about = {"seconds": 1.0, "seeds": 1, "data": "x"}
+    row = {"name": "pod_gp", "protocol": "strict", "mean_mm": 1.0}
+    peers["compare"].write(tmp_path / "peers.json", {**about, "load": 1.0, "rows": [row]})
+    assert peers["compare"].kept(tmp_path / "peers.json", about) == {("pod_gp", "strict"): row}
+    assert peers["compare"].kept(tmp_path / "peers.json", {**about, "data": "y"}) == {}
+    assert "| pod_gp | strict | 1 |" in (tmp_path / "peers.md").read_text()
+    assert peers["compare"].kept(tmp_path / "nothing.json", about) == {}

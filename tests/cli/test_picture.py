@@ -13,6 +13,7 @@ from myograph.cli.solids import bone_solids, size_of
 from myograph.ensemble.store.reading import read_muscle
 from myograph.errors import InputError
 from myograph.inference.low_rank import read_low_rank_arm
+from myograph.inference.truth import write_truth
 from tests.ensemble.filled import filled_store
 from tests.inference.low_rank.stand_in import save_arm
 
@@ -106,6 +107,52 @@ def test_a_film_shows_the_movement(call, tmp_path):
     assert (first.title[:6], last.title[:6]) == ("0.00 s", "1.00 s")
     assert np.abs(first.solids[0].points - last.solids[0].points).max() > 0.1
     assert (tmp_path / "film.gif").read_bytes()[:6] == b"GIF89a"
+
+
+def test_a_film_of_a_dataset_shows_its_cases(call, tmp_path):
+    store = filled_store(tmp_path / "store")
+    cases = read_muscle(store, "triceps")
+    found = json.loads(call("film", store, "--rate", "4", "--field", "displacement", "--json"))
+    assert (found["images"], found["muscles"]) == (len(cases), ["biceps", "triceps"])
+    last = Recorder.shown[-1][0]
+    assert last.title.startswith(f"case {len(cases) - 1}, elbow ")
+    np.testing.assert_allclose(last.solids[-1].points, cases.values("position", np.array([len(cases) - 1]))[0])
+    assert last.solids[-1].values.max() > 0
+    call("film", store, "--muscle", "triceps", "--by-angle")
+    angles = [float(panels[0].title.split("elbow ")[1].rstrip("°")) for panels in Recorder.shown]
+    assert angles == sorted(angles)
+    assert angles[0] < angles[-1]
+    call("film", store, "--case", "3", "--case", "1")
+    assert [panels[0].title.split(",")[0] for panels in Recorder.shown] == ["case 3", "case 1"]
+
+
+def test_a_film_of_a_file_of_cases_shows_them(call, tmp_path):
+    cases = read_muscle(filled_store(tmp_path / "store"), "biceps")
+    write_truth(tmp_path / "biceps.npz", cases, np.arange(4), ("position",))
+    found = json.loads(call("film", tmp_path / "biceps.npz", "--json"))
+    assert (found["images"], found["muscles"]) == (4, ["biceps"])
+    with pytest.raises(InputError, match="expected cases of triceps, got those of biceps"):
+        call("film", tmp_path / "biceps.npz", "--muscle", "triceps")
+    with pytest.raises(InputError, match="expected one of the fields muscle, got 'von_mises'"):
+        call("film", tmp_path / "biceps.npz", "--field", "von_mises")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--case", "99"), "--case: expected cases from 0 to"),
+        (("--movement", "m.csv"), "expected no --movement of a dataset"),
+        (("--load", "3"), "expected no --load of a dataset"),
+        (("--rate", "0"), "--rate: expected a number above 0"),
+        (("--muscle", "heart"), "expected one of biceps, triceps, got 'heart'"),
+    ],
+)
+def test_wrong_options_of_a_film_of_a_dataset_are_refused(call, tmp_path, words, message):
+    store = filled_store(tmp_path / "store", count=2)
+    with pytest.raises(InputError, match=message):
+        call("film", store, *words)
+    with pytest.raises(InputError, match="expected no --case of a model"):
+        call("film", "--case", "3")
 
 
 def test_bones_turn_with_the_angle_and_are_left_out_where_it_is_not_known():

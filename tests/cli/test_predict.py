@@ -2,7 +2,6 @@
 
 import json
 import shutil
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,10 +9,7 @@ import typer
 
 from myograph.cli.evaluate import evaluate
 from myograph.cli.predict import predict
-from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.errors import InputError
-from myograph.evaluation import saved
-from myograph.inference.loaded import load
 from myograph.inference.truth import write_truth
 from tests.inference.stand_in import place, save_linear, save_mean, stand_in_cases
 
@@ -82,7 +78,7 @@ def test_sensors_come_from_a_file(call, tmp_path):
     sensors.write_text("node,x_mm,y_mm,z_mm\n" + rows)
     found = json.loads(call("predict", "--sensors", sensors, "--json"))
     assert found["model"] == "mean"
-    assert found["cases"][0]["displacement_mean_mm"] == pytest.approx(3.0, rel=1e-5)
+    assert found["cases"][0]["displacement_mean_mm"] == pytest.approx(3.0, abs=1e-3)
     assert found["cases"][0]["von_mises_max_mpa"] is None
 
 
@@ -151,20 +147,6 @@ def test_a_shipped_model_without_shipped_cases_is_left_out(call, folder, monkeyp
     shutil.rmtree(folder / "arm")
     assert set(found["models"]) == {"linear", "mean"}
     assert "no cases of triceps" in found["left_out"]["arm/triceps"]
-
-
-def test_a_model_that_reads_both_is_also_asked_each_way(folder):
-    told = load(folder / "linear")
-    signature = told.told.signature.model_copy(
-        update={"inputs": ("activation", "sensor_position_target"), "any_sensors": True, "least_sensors": 0}
-    )
-    either = signature.model_copy(update={"unknown_activation": True})
-    found = [saved.ways(replace(told, told=told.told.model_copy(update={"signature": s}))) for s in (signature, either)]
-    assert [list(ways) for ways in found] == [["all"], ["all", "activation", "sensors"]]
-    sampler = PairSampler(stand_in_cases(), np.array([3, 5]))
-    question = sampler.batch(np.array([[0, 1]])).question
-    assert len(found[1]["activation"](question).sensor_nodes) == 0
-    assert np.isnan(found[1]["sensors"](question).activation).all()
 
 
 def test_the_figures_are_said_in_words(call):

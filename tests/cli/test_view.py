@@ -5,12 +5,15 @@ import json
 import pytest
 import typer
 
+from myograph.anatomy.load import built_in_arm
 from myograph.cli.view import view
 from myograph.errors import InputError
 from myograph.inference.model_file import MODEL_FILE, model_text, read_model_file
+from myograph.view.page import read_arm_models
 from tests.inference.low_rank.stand_in import save_arm, save_modes
+from tests.view.page.arm import save_network
 
-TEMPLATE = "<title>myograph</title>@@MYOGRAPH_DATA@@|@@MYOGRAPH_NUMBERS@@"
+TEMPLATE = "<title>myograph</title>@@MYOGRAPH_DATA@@|@@MYOGRAPH_NUMBERS@@<!--@@MYOGRAPH_RUNTIME@@-->"
 
 
 @pytest.fixture(scope="module")
@@ -56,10 +59,33 @@ def test_a_movement_is_put_into_the_page(call, arm, tmp_path):
 
 
 def test_the_shipped_arm_is_taken_without_a_model(call, arm, tmp_path, monkeypatch):
-    monkeypatch.setattr("myograph.cli.view.models_folder", lambda: arm.parent)
+    monkeypatch.setattr("myograph.cli.arm_model.models_folder", lambda: arm.parent)
     assert "left_arm" not in call("--out", tmp_path / "page.html")
-    monkeypatch.setattr("myograph.cli.view.models_folder", lambda: tmp_path / "none")
+    monkeypatch.setattr("myograph.cli.arm_model.models_folder", lambda: tmp_path / "none")
     assert "no arm of its own; expected MODEL" in refused(call, tmp_path / "other.html")
+
+
+def test_a_network_is_put_beside_the_shipped_arm_or_beside_modes(call, arm, tmp_path, monkeypatch):
+    models = read_arm_models(arm, built_in_arm())
+    save_network(tmp_path / "net", models)
+    monkeypatch.setattr("myograph.cli.arm_model.models_folder", lambda: arm.parent)
+    monkeypatch.setattr("myograph.cli.view.read_runtime", lambda: "<runtime>")
+    told = json.loads(call(tmp_path / "net", "--out", tmp_path / "page.html", "--json"))
+    assert (told["network"], len(told["muscles"])) == ("mean", 5)
+    assert (tmp_path / "page.html").read_text(encoding="utf-8").endswith("<runtime>")
+    beside = json.loads(call(arm, "--network", tmp_path / "net", "--out", tmp_path / "other.html", "--json"))
+    assert beside["network"] == "mean"
+    words = (tmp_path / "net", "--network", tmp_path / "net")
+    assert "expected neural modes beside --network" in refused(call, tmp_path / "third.html", *words)
+    assert "shipped ones are arm, " in refused(call, tmp_path / "third.html", "gen-bicep")
+    words = (arm, "--network", arm / "biceps")
+    assert "expected a network that answers anywhere" in refused(call, tmp_path / "third.html", *words)
+    monkeypatch.setattr("myograph.cli.view.read_runtime", missing)
+    assert "no built page" in refused(call, tmp_path / "third.html", tmp_path / "net")
+
+
+def missing():
+    raise InputError("this installation has no built page")
 
 
 def test_a_movement_of_unknown_muscles_is_refused(call, arm, tmp_path):
@@ -79,3 +105,4 @@ def test_a_folder_without_models_and_one_as_the_page_are_refused(call, arm, tmp_
     assert "expected the folder of a saved model" in refused(call, tmp_path / "page.html", tmp_path / "nothing")
     with pytest.raises(InputError, match=r"expected a file such as page\.html, got the folder"):
         call(arm, "--out", tmp_path)
+    assert "expected a file such as page.html, got" in refused(call, tmp_path / "page.txt", arm)

@@ -98,6 +98,8 @@ def _rename(model, old, new):
         (lambda m: m.update(parity=float("nan")), "parity"),
         (lambda m: m["fields"].update(position="m"), "fields: expected"),
         (lambda m: m.update(half_width_90={"pressure": 1.0}), "half_width_90: expected some of"),
+        (lambda m: m.update(half_width_90_from={"sensors": {"pressure": 1.0}}), "got pressure"),
+        (lambda m: m.update(half_width_90_from={"guessing": {}}), "half_width_90_from"),
         (lambda m: m["signature"].update(inputs=["shoe_size"]), "unknown input 'shoe_size'"),
         (lambda m: m["signature"].update(inputs=["sensor_taste_initial"]), "unknown input 'sensor_taste_initial'"),
         (lambda m: m["signature"].update(outputs=["taste"]), "unknown output 'taste'"),
@@ -112,6 +114,11 @@ def test_what_model_json_may_not_say_is_refused(folder, change, message):
     _say(folder, change)
     with pytest.raises(InputError, match=message):
         load(folder)
+
+
+def test_a_model_of_before_single_ways_had_widths_is_read(folder):
+    _say(folder, lambda m: m.pop("half_width_90_from"))
+    assert load(folder).told.half_width_90_from == {}
 
 
 def test_an_altered_model_json_is_refused(folder):

@@ -1,5 +1,6 @@
 """A torch model that is saved answers alike in torch, in onnxruntime, and when it is loaded to go on training."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -144,13 +145,30 @@ def test_nothing_of_the_machine_is_in_the_network(folder):
     assert b"torch/nn" not in data
 
 
+def test_what_only_the_network_names_is_numbered(folder):
+    graph = onnx.load(folder / NETWORK).graph
+    kept = {item.name for part in (graph.input, graph.output, graph.initializer) for item in part}
+    assert all(re.fullmatch(r"v\d+", name) for node in graph.node for name in node.output if name not in kept)
+    assert not any(node.name for node in graph.node)
+
+
+def test_a_network_with_a_graph_in_a_graph_keeps_its_names():
+    inner = onnx.helper.make_graph([], "inner", [], [])
+    outer = onnx.helper.make_node("If", ["a"], ["b"], "branch", then_branch=inner, else_branch=inner)
+    graph = onnx.helper.make_graph([outer], "outer", [], [])
+    onnx_export._shorten(graph)
+    assert graph.node[0].name == "branch"
+
+
 def test_the_body_at_rest_is_the_case_with_the_least_activation(folder):
     body, cases = load(folder).body, stand_in_cases()
     taught = training().split.train.cases
     least = taught[np.linalg.norm(cases.activation[taught], axis=1).argmin()]
-    np.testing.assert_allclose(body.rest["position"], cases.values("position", np.array([least]))[0], rtol=1e-6)
+    np.testing.assert_allclose(body.rest["position"], cases.values("position", np.array([least]))[0], atol=2**-11)
     position = cases.values("position", taught)
-    np.testing.assert_allclose(body.high, position.max(axis=0), rtol=1e-6)
+    assert (body.low <= position.min(axis=0)).all()
+    assert (body.high >= position.max(axis=0)).all()
+    np.testing.assert_allclose(body.high, position.max(axis=0), atol=2**-6)
 
 
 def test_the_operator_set_is_the_chosen_one(folder):

@@ -56,7 +56,7 @@ export class Arm {
     const { x, deviation } = this.angle.x(this.activation, load);
     this.x = x;
     for (const drawn of this.drawn) {
-      const { muscle, surface } = drawn;
+      const { muscle } = drawn;
       const u = this.data.angle.range * (2 * this.activation[muscle.told.own]! - 1);
       muscle.move({ x, u, xDeviation: deviation, uDeviation: muscle.told.own_deviation });
       this.form(drawn);

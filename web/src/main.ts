@@ -10,6 +10,8 @@ const NO_WEBGL =
   "This page needs WebGL, and this browser gives none. Turn on hardware acceleration in its settings, or open the page in " +
   "another browser; nothing else is needed.";
 
+const LOST = "The browser has taken the graphics away from this page. Reload it if the arm does not come back by itself.";
+
 declare global {
   interface Window {
     /** For scripts: the page, and the times [ms] from opening until it could be used, and that WebGL took of it. */
@@ -29,6 +31,18 @@ function say(sentence: string): void {
   document.documentElement.dataset["state"] = "failed";
 }
 
+/** Phones take the graphics from pages in the background; three.js draws again when they come back. */
+function watch(canvas: HTMLElement, page: Page): void {
+  canvas.addEventListener("webglcontextlost", () => {
+    found("sentence").textContent = LOST;
+    found("sentence").hidden = false;
+  });
+  canvas.addEventListener("webglcontextrestored", () => {
+    found("sentence").hidden = true;
+    page.view.update();
+  });
+}
+
 function open(): void {
   ColorManagement.enabled = false;
   const { data, blob } = readPage(document);
@@ -42,7 +56,9 @@ function open(): void {
   }
   const page = new Page(data, blob, context);
   window.myograph = { page, readyAfter: performance.now(), webgl: taken };
+  watch(found("view"), page);
   document.documentElement.dataset["state"] = "ready";
+  setTimeout(() => page.warm(), 50);
 }
 
 try {

@@ -15,6 +15,8 @@ import { type Pick, View } from "./scene";
 import { type Sliders, makeSliders } from "./sliders";
 import { showTimes } from "./times";
 
+const WARM = 12;
+
 export class Page {
   readonly arm: Arm;
   readonly view: View;
@@ -97,6 +99,12 @@ export class Page {
     this.refresh();
   }
 
+  /** Predict a few times: the first time is mostly the browser's, which compiles what it runs. */
+  warm(): void {
+    for (let i = 0; i < WARM; i++) this.arm.predict(this.arm.activation, this.arm.load);
+    this.refresh();
+  }
+
   private heard(): void {
     this.arm.answered();
     this.refresh();
@@ -127,7 +135,7 @@ export class Page {
     this.angle.textContent = angle === null ? "unknown" : `${angle.toFixed(1)}°`;
     const number = this.data.truth.indexOf(this.arm.truth!);
     const truth = number >= 0 ? this.data.truth[number]!.elbow_angle_deg : null;
-    if (truth !== null) this.angle.textContent += ` (FE ${truth.toFixed(1)}°)`;
+    if (truth !== null) this.angle.textContent += ` (truth ${truth.toFixed(1)}°)`;
     showTimes(found("readout"), this.arm);
     const outside = this.arm.outside;
     found("badge").hidden = outside.length === 0;
@@ -151,7 +159,7 @@ export class Page {
         this.truth(this.arm.truth ? data.truth.indexOf(this.arm.truth) : null);
       });
       (ghost.firstChild as HTMLInputElement).checked = true;
-      panel.append(section("Finite-element truth", this.cases, ghost));
+      panel.append(section("Truth to compare with", this.cases, ghost));
     }
     if (this.player) panel.append(section("Movement", this.player.element));
     panel.append(section("View", this.looks()), section("Save what is shown", this.savers()), this.about());

@@ -5,7 +5,7 @@ export interface Part {
   position: Float32Array;
   normal: Float32Array;
   triangles: Uint32Array;
-  /** Red, green, blue from 0 to 1 of each vertex. */
+  /** Red, green, blue from 0 to 1 of each vertex, as on the screen. */
   colour: Float32Array;
 }
 
@@ -54,7 +54,7 @@ export function glb(parts: Part[], title: string): ArrayBuffer {
       attributes: {
         POSITION: add(written, part.position.map((value) => value / 1000), "VEC3", true),
         NORMAL: add(written, part.normal, "VEC3"),
-        COLOR_0: add(written, part.colour, "VEC3"),
+        COLOR_0: add(written, part.colour.map(linear), "VEC3"),
       },
       indices: add(written, part.triangles, "SCALAR"),
       material: 0,
@@ -75,6 +75,11 @@ export function glb(parts: Part[], title: string): ArrayBuffer {
     buffers: [{ byteLength: written.size }],
   };
   return packed(padded(new TextEncoder().encode(JSON.stringify(content)), 32), written);
+}
+
+/** glTF counts light, not what screens are told. */
+function linear(value: number): number {
+  return value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
 }
 
 function add(written: Written, values: Float32Array | Uint32Array, type: "VEC3" | "SCALAR", bounded = false): number {

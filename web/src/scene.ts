@@ -1,7 +1,7 @@
 // The arm in space, drawn by WebGL when something has changed, and not otherwise.
 
 import {
-  BufferAttribute, BufferGeometry, type DataTexture, Group, Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera,
+  BufferAttribute, BufferGeometry, type DataTexture, Group, Matrix4, Mesh, MeshBasicMaterial, OctahedronGeometry, PerspectiveCamera,
   Raycaster, Scene, type ShaderMaterial, Sphere, SphereGeometry, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -18,7 +18,7 @@ export interface Pick {
 }
 
 const SENSOR_RADIUS = 2.4, GRAPH_RADIUS = 4.5;
-const GRAPH_COLOUR = 0x6a3dff;
+const GRAPH_COLOUR = 0x6a3dff, HALO = 1.4;
 
 export class View {
   private readonly canvas: HTMLCanvasElement;
@@ -55,7 +55,7 @@ export class View {
     this.addNetwork();
     this.marker = new Mesh(new SphereGeometry(3), new MeshBasicMaterial({ color: 0xb3005e, depthTest: false }));
     this.marker.visible = false;
-    this.marker.renderOrder = 3;
+    this.marker.renderOrder = 4;
     this.scene.add(this.marker);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
@@ -214,13 +214,11 @@ export class View {
   }
 
   private addSensors(): void {
-    const shape = new SphereGeometry(SENSOR_RADIUS, 12, 8);
-    const paint = new MeshBasicMaterial({ color: 0x000000, depthTest: false });
+    const make = dots(new SphereGeometry(SENSOR_RADIUS, 12, 8), 0x000000);
     this.arm.drawn.forEach(({ muscle }, body) => {
       for (const node of muscle.sensors) {
-        const dot = new Mesh(shape, paint);
+        const dot = make();
         dot.userData = { body, node };
-        dot.renderOrder = 2;
         this.dots.add(dot);
       }
     });
@@ -229,18 +227,16 @@ export class View {
 
   private addNetwork(): void {
     const { network } = this.arm;
-    const add = (group: Group, count: number, shape: BufferGeometry, color: number) => {
-      const paint = new MeshBasicMaterial({ color, depthTest: false });
-      for (let i = 0; i < count; i++) {
-        const dot = new Mesh(shape, paint);
-        dot.renderOrder = 2;
-        group.add(dot);
-      }
-      group.visible = false;
-    };
-    add(this.networkSensors, (network?.sensors.length ?? 0) / 3, new SphereGeometry(SENSOR_RADIUS, 12, 8), 0x000000);
-    add(this.graph, (network?.nodes?.length ?? 0) / 3, new OctahedronGeometry(GRAPH_RADIUS), GRAPH_COLOUR);
-    this.graph.children.forEach((dot, i) => dot.position.fromArray(network!.nodes!, 3 * i));
+    this.networkSensors.visible = this.graph.visible = false;
+    if (!network) return;
+    const sensor = dots(new SphereGeometry(SENSOR_RADIUS, 12, 8), 0x000000);
+    for (let i = 0; i < network.sensors.length; i += 3) this.networkSensors.add(sensor());
+    const node = dots(new OctahedronGeometry(GRAPH_RADIUS), GRAPH_COLOUR);
+    for (let i = 0; i < (network.nodes?.length ?? 0); i += 3) {
+      const dot = node();
+      dot.position.fromArray(network.nodes!, i);
+      this.graph.add(dot);
+    }
   }
 
   private moveDots(): void {
@@ -299,6 +295,20 @@ export class View {
     if (before !== this.camera.aspect) this.look(this.sidewards);
     this.draw();
   }
+}
+
+/** Makes dots that are seen through everything, each with a light rim. */
+function dots(shape: BufferGeometry, color: number): () => Mesh {
+  const paint = new MeshBasicMaterial({ color, depthTest: false });
+  const light = new MeshBasicMaterial({ color: 0xffffff, depthTest: false });
+  return () => {
+    const dot = new Mesh(shape, paint), rim = new Mesh(shape, light);
+    rim.scale.setScalar(HALO);
+    rim.renderOrder = 2;
+    dot.renderOrder = 3;
+    dot.add(rim);
+    return dot;
+  };
 }
 
 function vector(numbers: number[]): Vector3 {

@@ -7,7 +7,7 @@ import { Packing, body } from "./page";
 
 const triangle: Part = {
   name: "one", position: Float32Array.of(0, 0, 0, 2, 0, 0, 0, 2, 0), normal: Float32Array.of(0, 0, 1, 0, 0, 1, 0, 0, 1),
-  triangles: Uint32Array.of(0, 1, 2), colour: Float32Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1),
+  triangles: Uint32Array.of(0, 1, 2), colour: Float32Array.of(0.5, 0, 0, 0, 1, 0, 0, 0, 1),
 };
 
 test("normals are of length one and turn outwards", () => {
@@ -36,6 +36,10 @@ test("tables begin and end with the map's own colours", () => {
   expect(Array.from(table.slice(0, 4))).toEqual([0x44, 0x01, 0x54, 255]);
   expect(Array.from(table.slice(4 * (ENTRIES - 1)))).toEqual([0xfd, 0xe7, 0x25, 255]);
   expect(Array.from(lookupTable("error").slice(0, 3))).toEqual([0x00, 0x22, 0x4e]);
+  const stretch = lookupTable("fibre_stretch");
+  expect(stretch[2]).toBeGreaterThan(stretch[0]!);
+  expect(Math.min(...stretch.slice(4 * 127, 4 * 127 + 3))).toBeGreaterThan(0xf0);
+  expect(stretch[4 * 240]).toBeGreaterThan(2 * stretch[4 * 240 + 2]!);
 });
 
 test("numbers are written short", () => {
@@ -70,4 +74,6 @@ test("a glTF file is whole: lengths, chunks, bounds in metres", () => {
   expect(content.buffers[0].byteLength).toBe(head.getUint32(20 + size, true));
   expect(28 + size + content.buffers[0].byteLength).toBe(file.byteLength);
   expect(content.meshes[0].primitives[0].indices).toBe(3);
+  const colour = content.bufferViews[content.accessors[2].bufferView].byteOffset;
+  expect(head.getFloat32(28 + size + colour, true)).toBeCloseTo(0.2140, 3);
 });

@@ -1,11 +1,31 @@
-"""nvidia-physicsnemo: MeshGraphNet on the nearest neighbours of each node, activations as features of every node."""
+"""nvidia-physicsnemo: MeshGraphNet on the nearest neighbours of each node, activations as features of every node.
+
+Of torch-scatter, which must be built from sources, it calls one function; where it was not built, PyTorch Geometric's
+own function of the same name and arguments takes its place.
+"""
+
+import importlib.util
+import sys
+from importlib import metadata
+from types import ModuleType
+from unittest import mock
 
 import numpy as np
 import torch
-from physicsnemo.models.meshgraphnet import MeshGraphNet
+import torch_geometric.utils
 from torch_geometric.data import Data
 
 from adapters.stepwise import places, train
+
+SCATTER = "torch_scatter"
+if importlib.util.find_spec(SCATTER) is None:
+    sys.modules[SCATTER] = ModuleType(SCATTER)
+    sys.modules[SCATTER].scatter = torch_geometric.utils.scatter
+    known = metadata.version
+    with mock.patch.object(metadata, "version", lambda name: "2.1.2" if name == SCATTER else known(name)):
+        from physicsnemo.models.meshgraphnet import MeshGraphNet
+else:
+    from physicsnemo.models.meshgraphnet import MeshGraphNet
 
 DOES = {"package": "nvidia-physicsnemo", "anywhere": False, "reads": "activations"}
 WIDTH, ROUNDS, NEIGHBOURS = 32, 5, 6

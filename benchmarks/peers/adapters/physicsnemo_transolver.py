@@ -1,4 +1,4 @@
-"""nvidia-physicsnemo: Transolver, attention between slices of the body's nodes; activations are features of each node."""
+"""nvidia-physicsnemo: Transolver, attention between slices of the nodes; activations are features of each node."""
 
 import torch
 from physicsnemo.models.transolver import Transolver

@@ -10,6 +10,7 @@ from myograph.cli.arm_model import model_folder
 from myograph.cli.options import ArmFile, Json, print_json, read_arm
 from myograph.errors import InputError
 from myograph.files import write_whole
+from myograph.inference.shipped import ARM, shipped_models
 from myograph.limb.motion.activation_file import Activations, read_activations
 from myograph.view.page import (
     ArmModels,
@@ -57,11 +58,12 @@ def view(
     folder, beside = _folders(model, network)
     models = read_arm_models(folder, read_arm(arm_file))
     asked = None if beside is None else read_network(beside, models)
+    runtime = "" if asked is None else read_runtime()
     cases = read_truth_cases(truth, models.muscles) if truth else []
     played = _movement(movement)
     name = movement.name if movement else ""
     content = page_content(PageArm(models, cases, played, name, asked, _solve_time(models)))
-    page = filled_page(template, content, read_runtime() if asked else "").encode()
+    page = filled_page(template, content, runtime).encode()
     write_whole(out, lambda file: file.write(page))
     if json:
         print_json(
@@ -86,13 +88,27 @@ def view(
 
 def _folders(model: str | None, network: str | None) -> tuple[Path, Path | None]:
     """Of the modes, and of the network beside them; a model that has no modes is a network beside the shipped arm."""
-    folder = model_folder(model)
-    beside = None if network is None else model_folder(network)
+    folder = _folder(model)
+    beside = None if network is None else _folder(network)
+    if beside is not None and not is_network(beside):
+        raise InputError(
+            f"--network {network}: expected a network that answers anywhere, got none; modes are the MODEL"
+        )
     if not is_network(folder):
         return folder, beside
     if beside is not None:
         raise InputError(f"{folder}: expected neural modes beside --network, got another network")
     return model_folder(None), folder
+
+
+def _folder(named: str | None) -> Path:
+    folder = model_folder(named)
+    if not folder.exists():
+        known = ", ".join([ARM, *shipped_models()])
+        raise InputError(
+            f"{named}: expected the folder of a saved model, found nothing there; shipped ones are {known}"
+        )
+    return folder
 
 
 def _solve_time(models: ArmModels) -> SolveTime | None:
@@ -106,5 +122,6 @@ def _movement(path: Path | None) -> Activations | None:
 
 
 def _check_place(out: Path) -> None:
-    if out.is_dir():
-        raise InputError(f"--out: expected a file such as page.html, got the folder {out}")
+    if out.is_dir() or out.suffix.lower() not in (".html", ".htm"):
+        what = "the folder " if out.is_dir() else ""
+        raise InputError(f"--out: expected a file such as page.html, got {what}{out}")

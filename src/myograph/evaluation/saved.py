@@ -115,7 +115,12 @@ def _test_pairs(cases: MuscleCases, protocol: Protocol, seed: int) -> Int[np.nda
 
 
 def _some(pairs: Int[np.ndarray, "pairs 2"], most: int) -> Int[np.ndarray, "some 2"]:
+    """At most so many, drawn at random, each target as often as any other: what is asked are the targets' states."""
     if len(pairs) <= most:
         return pairs
-    drawn = np.random.default_rng(DRAW_SEED).choice(len(pairs), most, replace=False)
-    return pairs[np.sort(drawn)]
+    shuffled = np.random.default_rng(DRAW_SEED).permutation(pairs)
+    by_target = np.argsort(shuffled[:, 1], kind="stable")
+    _, first, count = np.unique(shuffled[by_target, 1], return_index=True, return_counts=True)
+    turn = np.empty(len(pairs), dtype=np.int64)
+    turn[by_target] = np.arange(len(pairs)) - np.repeat(first, count)
+    return shuffled[np.sort(np.argsort(turn, kind="stable")[:most])]

@@ -7,7 +7,6 @@ import subprocess
 import sys
 import time
 
-import numpy as np
 import pytest
 
 from myograph.anatomy.load import built_in_arm
@@ -16,7 +15,6 @@ from myograph.cli.reproduce import run_reproduction
 from myograph.cli.reproduce import runner as running
 from myograph.cli.reproduce.data import Places
 from myograph.cli.reproduce.registry import EXPERIMENTS
-from myograph.cli.reproduce.sections.edge import farthest
 from myograph.errors import InputError, MissingPackageError
 from myograph.evaluation.experiments.chapter import SECTIONS
 
@@ -69,12 +67,6 @@ def test_a_missing_package_is_named_before_anything_is_made(missing, tmp_path, m
 def test_a_store_that_is_not_there_is_refused(tmp_path):
     with pytest.raises(InputError, match="expected a folder, found none"):
         run_reproduction(built_in_arm(), "tiny", [], Places(tmp_path / "out", tmp_path / "nowhere"), Steps())
-
-
-def test_points_far_apart_come_first():
-    line = np.array([[0.0], [0.1], [0.5], [0.9], [1.0]])
-    assert farthest(line, 3) == [2, 0, 4]
-    assert sorted(farthest(line, 5)) == [0, 1, 2, 3, 4]
 
 
 @pytest.mark.exhaustive

@@ -52,6 +52,7 @@ def block(support=120, off_grid=24, known_angle=True):
         "position": positions(body.reference, angle, own),
         "cauchy_stress": stress,
         "von_mises": von_mises(stress),
+        "fibre_stretch": 1 + 0.2 * (angle - 1.2)[:, None] * body.reference[:, 0] / SIDE,
     }
     return cases_in_memory(
         "biceps",

@@ -1,5 +1,6 @@
 """Neural modes as a whole, on a block whose fields they can represent exactly."""
 
+import copy
 from dataclasses import replace
 
 import numpy as np
@@ -12,8 +13,9 @@ from myograph.learning.modes import locating
 from myograph.learning.modes.chebyshev import RANGE
 from myograph.learning.modes.config import ModesConfig
 from myograph.learning.modes.field_modes import Shapes
+from myograph.learning.modes.fitting import measure_angle
 from myograph.learning.modes.learner import ModesLearner, reading
-from myograph.learning.modes.locating import Known, _normal, _root_of_inverse, locate
+from myograph.learning.modes.locating import Known, _root_of_inverse, _solve, locate
 from myograph.learning.modes.rebuild import rebuild
 from myograph.learning.torch_predictor import TorchPredictor
 from tests.learning.modes.block import OWN, block
@@ -123,13 +125,46 @@ def test_the_leading_mode_serves_where_the_angle_is_unknown(split, sampler):
 
 
 def test_the_root_of_the_covariance_is_that_of_the_inverse():
-    along_x, along_u = torch.randn(2, 3, 7)
-    precision = torch.ones(3, 2)
-    root = _root_of_inverse(_normal(along_x, along_u, precision))
+    slopes = torch.randn(3, 2, 7)
+    normal = slopes @ slopes.mT + torch.eye(2)
+    root = _root_of_inverse(torch.cat([torch.zeros(3, 2, 1), normal], dim=-1))
     for case in range(3):
-        slopes = torch.stack([along_x[case], along_u[case]])
         lower = torch.tensor([[root[case, 0], 0], [root[case, 1], root[case, 2]]])
-        assert torch.allclose(lower @ lower.T, torch.linalg.inv(slopes @ slopes.T + torch.eye(2)), atol=1e-5)
+        assert torch.allclose(lower @ lower.T, torch.linalg.inv(normal[case]), atol=1e-5)
+
+
+def test_a_step_solves_the_symmetric_system():
+    slopes, right, pull = torch.randn(3, 2, 7).double(), torch.randn(3, 2, 1).double(), torch.randn(3, 2).double()
+    normal = slopes @ slopes.mT
+    wanted = torch.linalg.solve(normal, right[..., 0] + pull)
+    assert torch.allclose(_solve(torch.cat([right, normal], dim=-1), pull), wanted)
+
+
+def test_fields_may_have_fewer_modes_and_any_field_is_answered(sampler, split):
+    asked = replace(sampler, asked=("position", "von_mises", "fibre_stretch"))
+    settings = ModesConfig(stress="von_mises", modes_of={"position": 3}, **QUICK)
+    predictor = ModesLearner(settings).fit(asked, split)
+    batch = asked.batch(split.test[:20])
+    found = predictor.predict(batch.question).values["fibre_stretch"]
+    assert np.abs(found - batch.truth["fibre_stretch"]).max() < 0.02
+    assert {shape.name: shape.modes for shape in predictor.module.built.fields}["position"] == 3
+
+
+def test_the_angle_is_off_by_what_it_misses_on_the_cases_that_are_told(both, sampler):
+    module, cases = copy.deepcopy(both.module), sampler.cases
+    chosen = np.arange(12)
+    measure_angle(module, cases, chosen)
+    near = float(module.angle_misfit)
+    measure_angle(module, replace(cases, elbow_angle=cases.elbow_angle + 0.1), chosen)
+    low, high = module.angle_range.tolist()
+    assert float(module.angle_misfit) == pytest.approx(2 * RANGE * 0.1 / (high - low), abs=2 * near)
+
+
+def test_a_model_that_knows_no_angle_cannot_be_off_it(both, sampler):
+    module = copy.deepcopy(both.module)
+    module.angle_range.fill_(torch.nan)
+    with pytest.raises(InputError, match="elbow's angle"):
+        measure_angle(module, sampler.cases, np.arange(3))
 
 
 def test_no_step_is_longer_than_two_cells_of_the_grid(both, monkeypatch):
@@ -137,7 +172,7 @@ def test_no_step_is_longer_than_two_cells_of_the_grid(both, monkeypatch):
     position = both.module.position
     sensors = Shapes(*(part.double() for part in position.at(torch.arange(27))))
     far = torch.tensor([[0.8, 0.8]]).double()
-    moved = position.tangent(far).amounts @ sensors.modes.T
+    moved = position.tangent(far)[:, 0] @ sensors.modes.T
     start = torch.zeros(1, 2).double()
     located = locate(moved, start, locating.nothing_known(start), position, sensors, 0.1)
     assert np.allclose(located.place, [locating.LONGEST])

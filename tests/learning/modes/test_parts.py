@@ -54,7 +54,7 @@ def test_a_constant_is_the_chebyshev_polynomial_of_degree_zero():
 
 def test_slopes_of_products_are_those_of_automatic_differentiation():
     place = torch.tensor([[0.3, -0.7], [-0.2, 0.9]], dtype=torch.float64, requires_grad=True)
-    values, along_x, along_u = products(place, (4, 3))
+    values, along_x, along_u = products(place, (4, 3)).unbind(dim=1)
     for term in (0, 7, 19):
         (slope,) = torch.autograd.grad(values[:, term].sum(), place, retain_graph=True)
         assert torch.allclose(slope, torch.stack([along_x[:, term], along_u[:, term]], dim=1))
@@ -65,7 +65,7 @@ def test_a_surface_that_is_a_polynomial_is_found_exactly():
     x, u = place.T
     amounts = np.stack([x**3 * u - x, 2 * x**2 + u**2], axis=1)
     surface = fit_surface(place, amounts)
-    found = products(torch.tensor(place), surface.degrees)[0].numpy() @ surface.weights
+    found = products(torch.tensor(place), surface.degrees)[:, 0].numpy() @ surface.weights
     assert np.allclose(found, amounts, atol=1e-6)
     assert surface.left_out < 1e-6
 
@@ -73,7 +73,7 @@ def test_a_surface_that_is_a_polynomial_is_found_exactly():
 def test_the_error_of_left_out_cases_is_that_of_fits_without_them():
     place, amounts = GENERATOR.uniform(-0.95, 0.95, size=(12, 2)), GENERATOR.normal(size=(12, 1))
     surface = fit_surface(place, amounts)
-    terms = products(torch.tensor(place), surface.degrees)[0].numpy()
+    terms = products(torch.tensor(place), surface.degrees)[:, 0].numpy()
     missed = []
     for case in range(12):
         rest = np.arange(12) != case

@@ -7,6 +7,7 @@ import pytest
 
 from myograph.ensemble.pairs.protocols import PairSet
 from myograph.errors import InputError
+from myograph.inference.ways import WHOLE, told_only
 from myograph.learning.modes.config import ModesConfig
 from myograph.learning.modes.learner import ModesLearner
 from myograph.learning.trust.calibrated import CalibratedLearner, edge_weights, hold_out
@@ -62,6 +63,23 @@ def test_intervals_scale_with_the_deviations_that_the_method_says(sampler, split
     narrow = CalibratedLearner(Guesser(1.0, 0.5)).fit(sampler, split)
     wide = CalibratedLearner(Guesser(1.0, 2.0)).fit(sampler, split)
     assert narrow.factors["position"] == pytest.approx(4 * wide.factors["position"])
+
+
+def test_each_way_of_telling_a_method_is_calibrated_by_itself(sampler, split):
+    both = ModesLearner(ModesConfig(reads="both", **QUICK))
+    calibrated = CalibratedLearner(both, share=0.3).fit(sampler, split)
+    assert set(calibrated.factors_from) == {"activation", "sensors"}
+    told = (calibrated.factors, *calibrated.factors_from.values())
+    assert len({factors["position"] for factors in told}) == 3
+    question = sampler.batch(split.test[:3]).question
+    for way, factors in ((WHOLE, calibrated.factors), *calibrated.factors_from.items()):
+        answer = calibrated.predict(told_only(question, way))
+        times = answer.half_width_90["position"] / answer.deviation["position"]
+        np.testing.assert_allclose(times, factors["position"], rtol=1e-6)
+
+
+def test_methods_that_are_told_in_one_way_have_one_factor(sensing):
+    assert sensing.factors_from == {}
 
 
 def test_nine_in_ten_nodes_of_the_calibration_cases_lie_in_their_intervals(sampler, split):

@@ -9,10 +9,14 @@ from myograph.case import MUSCLES
 from myograph.ensemble.muscle_cases import cases_in_memory
 from myograph.ensemble.spec import Body
 from myograph.fields import von_mises
+from myograph.inference.body_file import ModelBody, body_bytes
+from myograph.inference.model_file import BODY, CARD, NETWORK, WEIGHTS
 from myograph.inference.truth import write_truth
+from myograph.inference.writing import write_model
 from myograph.limb.motion.activation_file import Activations
 from myograph.view.page import PageArm, page_content, read_arm_models, read_truth_cases
 from tests.inference.low_rank.stand_in import save_arm
+from tests.inference.stand_in import FROM_SENSORS, MEAN, network, told
 
 APART = 0.3  # mm, in y at every node of the truth
 CASES = 5
@@ -49,3 +53,20 @@ def whole_content(models, folder):
     """The page's content with truth and movement."""
     cases = read_truth_cases(truth_folder(folder, models), models.muscles)
     return page_content(PageArm(models, cases, movement(), "up and down"))
+
+
+def save_network(folder, models, muscle="biceps", **other):
+    """A network that is asked anywhere: every point moves as four sensors do on average; it knows the models' body."""
+    known = models.muscles[muscle]
+    rest = known.at(np.zeros(5))["position"]
+    body = Body(known.reference.astype(np.float32), known.skin, known.cells)
+    reached = ModelBody(body, rest - 50, rest + 50, {"position": rest})
+    sensors = tuple(np.linspace(3, len(rest) - 4, 4).astype(int).tolist())
+    signature = MEAN.model_copy(update={"sensors": sensors, **other.pop("signature", {})})
+    files = {
+        NETWORK: network(other.pop("text", FROM_SENSORS)),
+        BODY: body_bytes(reached),
+        WEIGHTS: other.pop("weights", b"none"),
+        CARD: b"# by hand\n",
+    }
+    return write_model(told("mean", signature, **{"muscle": muscle, **other}), files, folder)

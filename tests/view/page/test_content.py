@@ -7,12 +7,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from myograph.anatomy.load import arm_checksum, built_in_arm
 from myograph.case import MUSCLES
 from myograph.ensemble.muscle_cases import cases_in_memory
 from myograph.ensemble.spec import Body
 from myograph.errors import InputError
-from myograph.inference.truth import write_truth
-from myograph.view.page import PageArm, filled_page, page_content, read_template, read_truth_cases
+from myograph.inference.shipped import models_folder
+from myograph.inference.truth import read_truth, write_truth
+from myograph.view.page import (
+    PageArm,
+    SolveTime,
+    filled_page,
+    page_content,
+    read_template,
+    read_truth_cases,
+    shipped_solve_time,
+)
 from myograph.view.page.packing import Packer
 from tests.view.page.arm import APART, CASES, make_arm, truth_folder, whole_content
 
@@ -57,8 +67,11 @@ def test_modes_of_the_page_are_the_models(models, content):
     np.testing.assert_allclose(modes, muscle.fields["cauchy_stress"].modes[:, nodes], rtol=1e-6, atol=1e-9)
 
 
-def test_errors_are_offered_with_a_truth_only(models, content):
-    without = page_content(PageArm(models)).fields
+def test_errors_are_offered_with_a_truth_only_and_the_time_of_a_solver_where_it_is_known(models, content):
+    known = page_content(PageArm(models, solve=SolveTime(21.5, "finite elements", "of a test")))
+    assert json.loads(known.data)["solve"] == {"seconds": 21.5, "what": "finite elements", "told": "of a test"}
+    assert json.loads(content.data)["solve"] is None
+    without = known.fields
     assert "error" in content.fields
     assert "stress_error" in content.fields
     assert "error" not in without
@@ -69,6 +82,49 @@ def test_nearly_all_errors_lie_below_the_end_of_their_colours(content):
     choice = next(each for each in json.loads(content.data)["fields"] if each["key"] == "error")
     assert choice["low"] == 0
     assert choice["high"] == pytest.approx(APART, rel=0.2)
+
+
+def test_the_colours_of_the_fibre_stretch_end_as_far_below_as_above_one(content):
+    choice = next(each for each in json.loads(content.data)["fields"] if each["key"] == "fibre_stretch")
+    assert choice["unit"] == "1"
+    assert (choice["low"] + choice["high"]) / 2 == pytest.approx(1)
+    assert choice["low"] < 1
+
+
+def test_the_time_of_a_solver_is_told_where_the_cases_know_it(models, tmp_path):
+    times = {}
+    for name, attributes in {
+        "file": {"simulator": "direct", "preset": "quick", "seconds_per_case": "21.5"},
+        "store": {"simulator": "table", "seconds": "10.0"},
+        "older": {"simulator": "direct"},
+        "foreign": {"simulator": "synthetic", "seconds": "10.0"},
+        "broken": {"simulator": "direct", "seconds": "unknown"},
+    }.items():
+        folder = tmp_path / name
+        folder.mkdir()
+        cases = read_truth(truth_folder(folder, models) / "biceps.npz")
+        write_truth(folder / "biceps.npz", replace(cases, attributes=attributes), np.arange(CASES), ("position",))
+        for other in MUSCLES:
+            if other != "biceps":
+                (folder / f"{other}.npz").unlink()
+        times[name] = PageArm(models, read_truth_cases(folder, models.muscles)).solve_time
+    assert times["file"].seconds == 21.5
+    assert times["file"].what == "finite elements"
+    assert "size 'quick'" in times["file"].told
+    assert (times["store"].seconds, times["store"].what) == (10.0 / CASES, "table")
+    assert times["older"] is times["foreign"] is times["broken"] is None
+
+
+def test_the_shipped_cases_tell_how_long_finite_elements_take_for_their_own_arm():
+    checksum = arm_checksum(built_in_arm())
+    if not (models_folder() / "truth" / "biceps.npz").is_file():
+        pytest.skip("this installation has no cases of its own")
+    found = shipped_solve_time("biceps", checksum)
+    assert found is not None
+    assert found.what == "finite elements"
+    assert 1 < found.seconds < 1000
+    assert shipped_solve_time("biceps", "another arm") is None
+    assert shipped_solve_time("triceps", checksum) is None
 
 
 def test_cases_of_the_truth_carry_its_positions(models, content):

@@ -22,9 +22,7 @@ export function makeNetworkPanel(
   network: Network, muscle: string, draw: (by: Drawer) => void, points: (shown: Points) => void,
 ): NetworkPanel {
   const options: [Drawer, string][] = [
-    ["modes", `${muscle} by the modes`],
-    ["network", `${muscle} by the network`],
-    ["difference", "by the network, coloured by the difference"],
+    ["modes", "modes"], ["network", "network"], ["difference", "network, its difference in mm"],
   ];
   const select = choice("who draws the muscle", options, (by) => draw(by as Drawer));
   const state = make("p", { class: "note", "aria-live": "polite" });
@@ -38,7 +36,7 @@ export function makeNetworkPanel(
     ...(network.nodes ? [toggle(`its ${network.nodes.length / 3} learned nodes`, "nodes")] : []),
   ];
   return {
-    element: section(`Network ${network.told.name}`, select, state, ...checks),
+    element: section(`Who draws the ${muscle}`, select, state, ...checks),
     update: (arm) => {
       select.value = !arm.networkDrawn ? "modes" : arm.field === DIFFERENCE ? "difference" : "network";
       state.textContent = network.problem || sentence(network);
@@ -49,6 +47,6 @@ export function makeNetworkPanel(
 
 /** Where the network is with its work; empty once it answers. */
 export function sentence(network: Network): string {
-  if (!network.started) return "It starts when it is first asked.";
+  if (!network.started) return `The network ${network.told.name} starts when it is first asked.`;
   return network.position ? "" : "The network is starting …";
 }

@@ -13,6 +13,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
+import numpy as np
+from jaxtyping import Float
+
 import myograph
 from myograph.anatomy.model import Arm
 from myograph.cli.progress import Steps
@@ -160,10 +163,20 @@ def _steps(data: Data) -> None:
 
 def _direct(data: Data) -> None:
     corners = make_design([DesignSpec()])
-    spread = range(0, len(corners.cases), len(corners.cases) // data.size.direct_factorial)
+    spread = fraction(np.array([case.activations for case in corners.cases]), data.size.direct_factorial)
     inside = make_design([DesignSpec(method="latin_hypercube", count=data.size.direct_off_grid, seed=SEED)])
     cases = (*(corners.cases[number] for number in spread), *inside.cases)
     data.by_finite_elements("direct", Design(cases, ("factorial",) * len(spread) + inside.words))
+
+
+def fraction(corners: Float[np.ndarray, "corners muscles"], count: int) -> list[int]:
+    """Numbers of so many corners in which each muscle is as often active as not, whatever another one does.
+
+    Fractions of the full factorial design by their words; source: Box & Hunter 1961.
+    """
+    kept = [number for number, own in enumerate(corners) if not any(sum(own[list(word)]) % 2 for word in WORDS[count])]
+    assert len(kept) == count
+    return kept
 
 
 def _beside(data: Data) -> None:
@@ -174,6 +187,8 @@ def _beside(data: Data) -> None:
     data.from_tables("beside", Design(tuple(cases[k] for k in done), tuple(plan.design.words[k] for k in done)))
 
 
+WORDS: dict[int, tuple[tuple[int, ...], ...]] = {32: (), 16: ((0, 1, 2, 3, 4),), 8: ((0, 1, 3), (0, 2, 4))}
+"""Number of corners -> muscles of which an even number is active in each of them."""
 _MAKERS: dict[str, Callable[[Data], None]] = {
     "ensemble": _ensemble,
     "steps": _steps,

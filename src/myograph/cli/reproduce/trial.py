@@ -91,5 +91,7 @@ class Trial:
         """Checksum of all that the outcome depends on, its name aside; `checksums` are those of the stores."""
         told = asdict(self)
         told.pop("name")
+        if self.drawn is None:
+            told.pop("drawn")
         data = [checksums[name] for name in (self.cases.store, self.cases.truth) if name is not None]
         return hashlib.sha256(json.dumps([told, data], sort_keys=True).encode()).hexdigest()

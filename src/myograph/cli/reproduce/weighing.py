@@ -1,16 +1,17 @@
 """What a saved model weighs: kilobytes, milliseconds of one answer on one core, multiply-adds; the same in plain C.
 
 One answer is all nodes of one case. In C a model of neural modes stands as `myograph export c` writes it: all modes as
-floats, and the fewest modes as int8 that stay within `WITHIN_MM` of them. Without a compiler these figures are left out.
+floats, and the fewest modes as int8 that stay within `WITHIN_MM` of them. Without a compiler nothing is said of C.
 """
 
+import contextlib
 import shutil
 import subprocess
 import tempfile
 from pathlib import Path
 
-from myograph.ensemble.pairs.protocols import Split
 from myograph.ensemble.pairs.predictor import Predictor
+from myograph.ensemble.pairs.protocols import Split
 from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.errors import InputError
 from myograph.export.c import Wanted, c_source, reduced_muscle
@@ -71,10 +72,8 @@ def in_c(model: Path, folder: Path) -> dict[str, float]:
     muscle = read_low_rank(model)
     whole = reduced_muscle(muscle, Wanted("float", tolerance_mm=None, surface=False))
     told = {"c_kb": whole.bytes / KILOBYTE}
-    try:
+    with contextlib.suppress(InputError):
         told["c_int8_kb"] = reduced_muscle(muscle, Wanted("int8", WITHIN_MM, surface=False)).bytes / KILOBYTE
-    except InputError:
-        pass
     for name, text in {**c_source(whole, CALLED).files, "main.c": MAIN}.items():
         (folder / name).write_text(text, encoding="utf-8")
     command = [compiler, *COMPILER, f"-DANSWERS={ANSWERS}", "main.c", f"{CALLED}.c", "-lm", "-o", "program"]

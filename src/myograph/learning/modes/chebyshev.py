@@ -22,9 +22,8 @@ def chebyshev(
     x: Float64[Tensor, " points"], degree: int
 ) -> tuple[Float64[Tensor, "points terms"], Float64[Tensor, "points terms"]]:
     """T_0 to T_degree and their slopes."""
-    powers = x.clamp(-1, 1).unsqueeze(-1) ** torch.arange(degree + 1, dtype=x.dtype, device=x.device)
-    values, slopes = (torch.tensor(matrix, dtype=x.dtype, device=x.device) for matrix in coefficients(degree))
-    return powers @ values, powers @ slopes
+    found = _with_slopes(x.unsqueeze(-1), degree)
+    return found[:, : degree + 1], found[:, degree + 1 :]
 
 
 @cache
@@ -39,13 +38,18 @@ def coefficients(degree: int) -> tuple[Float[np.ndarray, "powers terms"], Float[
     return values, slopes
 
 
-def products(
-    place: Float64[Tensor, "points 2"], degrees: Degrees
-) -> tuple[Float64[Tensor, "points terms"], Float64[Tensor, "points terms"], Float64[Tensor, "points terms"]]:
-    """All b_jk at (x, u), their slopes along x, and along u."""
-    (t, dt), (s, ds) = chebyshev(place[:, 0], degrees[0]), chebyshev(place[:, 1], degrees[1])
-    return _outer(t, s), _outer(dt, s), _outer(t, ds)
+def products(place: Float64[Tensor, "points 2"], degrees: Degrees) -> Float64[Tensor, "points 3 terms"]:
+    """All b_jk at (x, u), their slopes along x, and along u.
+
+    In few operations: a network that is asked for one case waits for their number, not for their size.
+    """
+    x, u = place.split(1, dim=1)
+    first = _with_slopes(x, degrees[0]).reshape(-1, 1, 2, degrees[0] + 1, 1)
+    second = _with_slopes(u, degrees[1]).reshape(-1, 2, 1, 1, degrees[1] + 1)
+    return (first * second).reshape(-1, 4, (degrees[0] + 1) * (degrees[1] + 1))[:, :3]
 
 
-def _outer(first: Float64[Tensor, "points m"], second: Float64[Tensor, "points n"]) -> Float64[Tensor, "points terms"]:
-    return (first[:, :, None] * second[:, None, :]).flatten(1)
+def _with_slopes(x: Float64[Tensor, "points 1"], degree: int) -> Float64[Tensor, "points terms"]:
+    """T_0 to T_degree, then their slopes."""
+    powers = x.clamp(-1, 1) ** torch.arange(degree + 1, dtype=x.dtype, device=x.device)
+    return powers @ torch.tensor(np.concatenate(coefficients(degree), axis=1), dtype=x.dtype, device=x.device)

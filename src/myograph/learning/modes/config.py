@@ -1,6 +1,6 @@
 """What neural modes are told before they have seen data, and what their module is made of afterwards."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -21,8 +21,8 @@ class ModesConfig(Model):
     coordinate
         First of the two numbers that say what the muscle does: the elbow's 'angle', or, where the cases do not tell
         it, the amount of the leading 'mode' of the positions.
-    modes
-        Of each field, at most.
+    modes, modes_of
+        Of each field, at most; and of single fields, by name, where those should have another number.
     stress
         What von Mises stress is answered by: it follows from the six components of 'cauchy_stress', or 'von_mises'
         has modes of its own, which are a sixth of the numbers.
@@ -45,6 +45,7 @@ class ModesConfig(Model):
     reads: Reads = "activation"
     coordinate: Literal["angle", "mode"] = "angle"
     modes: int = Field(default=32, ge=1)
+    modes_of: dict[str, Annotated[int, Field(ge=1)]] = Field(default_factory=dict)
     stress: Literal["cauchy_stress", "von_mises"] = "cauchy_stress"
     kept: Literal["float32", "float16"] = "float32"
     width: int = Field(default=20, ge=1)

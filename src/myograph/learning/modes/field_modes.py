@@ -10,14 +10,6 @@ from myograph.learning.modes.chebyshev import chebyshev, products
 from myograph.learning.modes.config import FieldShape
 
 
-class Tangent(NamedTuple):
-    """Amounts of the modes at a place (x, u), and their slopes along x and along u."""
-
-    amounts: Float[Tensor, "batch modes"]
-    along_x: Float[Tensor, "batch modes"]
-    along_u: Float[Tensor, "batch modes"]
-
-
 class Shapes(NamedTuple):
     """Mean and modes at some nodes, flattened, and what neither explains there: root mean square over the cases."""
 
@@ -47,9 +39,9 @@ class FieldModes(nn.Module):
         self.register_buffer("left_over", torch.ones(shape.modes))
         self.register_buffer("misfit", torch.zeros(nodes))
 
-    def tangent(self, place: Float[Tensor, "batch 2"]) -> Tangent:
-        """Amounts and slopes."""
-        return Tangent(*(terms @ self.weights for terms in products(place, self.shape.degrees)))
+    def tangent(self, place: Float[Tensor, "batch 2"]) -> Float[Tensor, "batch 3 modes"]:
+        """Amounts of the modes at a place (x, u), and their slopes along x and along u."""
+        return products(place, self.shape.degrees) @ self.weights
 
     def grid(self, x: Float[Tensor, " first"], u: Float[Tensor, " second"]) -> Float[Tensor, "points modes"]:
         """Amounts at all places (x, u) of a grid, those of the first x first; no product of all terms is kept."""
@@ -59,17 +51,13 @@ class FieldModes(nn.Module):
 
     def at(self, nodes: Int[Tensor, " points"]) -> Shapes:
         """Mean and modes at these nodes."""
-        modes = self.modes[nodes].flatten(0, 1).float()
-        return Shapes(self.mean[nodes].flatten(), modes, self.misfit[nodes])
+        mean, modes, misfit = (part.index_select(0, nodes) for part in (self.mean, self.modes, self.misfit))
+        return Shapes(mean.flatten(), modes.flatten(0, 1).float(), misfit)
 
-    def values(self, amounts: Float[Tensor, "batch modes"], shapes: Shapes) -> Float[Tensor, "batch points components"]:
-        """The field of these amounts."""
-        flat = torch.addmm(shapes.mean, amounts, shapes.modes.T)
-        return flat.unflatten(-1, (-1, self.shape.components))
+    def carried(self, amounts: Float[Tensor, "batch some modes"]) -> Float[Tensor, "batch some nodes components"]:
+        """What these amounts of the modes, or changes of them, make of the field at all nodes; without its mean.
 
-    def changes(
-        self, amounts: Float[Tensor, "batch modes"], shapes: Shapes
-    ) -> Float[Tensor, "batch points components"]:
-        """What these changes of the amounts change."""
-        flat = amounts @ shapes.modes.T
-        return flat.unflatten(-1, (-1, self.shape.components))
+        A product with constants is the fastest that a network can do: nodes that are asked are taken out of the result.
+        """
+        flat = amounts.flatten(0, 1) @ self.modes.flatten(0, 1).float().T
+        return flat.reshape(-1, amounts.shape[1], *self.mean.shape)

@@ -5,11 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import torch
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from torch import Tensor
 
+from myograph.ensemble.muscle_cases import MuscleCases
+from myograph.errors import InputError
 from myograph.learning.modes.angle_network import input_scaling
-from myograph.learning.modes.chebyshev import products
+from myograph.learning.modes.chebyshev import RANGE, products
 from myograph.learning.modes.config import FieldShape
 from myograph.learning.modes.field_modes import FieldModes
 from myograph.learning.modes.marquardt import fit_network
@@ -28,7 +30,7 @@ def fit_field(name: str, values: Values, pod: Pod, place: Place, kept: torch.dty
     surface = fit_surface(place, pod.amounts)
     shape = FieldShape(name=name, components=values.shape[2], modes=len(pod.modes), degrees=surface.degrees)
     field = FieldModes(shape, values.shape[1], kept)
-    amounts = products(torch.tensor(place), surface.degrees)[0].numpy() @ surface.weights
+    amounts = products(torch.tensor(place), surface.degrees)[:, 0].numpy() @ surface.weights
     numbers = {
         "mean": pod.mean.reshape(values.shape[1:]),
         "modes": pod.modes.T.reshape(*values.shape[1:], -1),
@@ -70,6 +72,21 @@ def fit_angle(
     module.angle_misfit.fill_(max(float(missed.square().mean().sqrt()), SMALLEST))
 
 
+def measure_angle(module: ModesModule, cases: MuscleCases, chosen: Int[np.ndarray, " chosen"]) -> None:
+    """Say how far the networks' angle is off by what they miss on these cases, such as those of a truer simulator.
+
+    Raises InputError for a module without networks, or whose coordinate is no angle.
+    """
+    low, high = module.angle_range.tolist()
+    if module.angle is None or not np.isfinite([low, high]).all():
+        raise InputError("neural modes: expected networks that tell the elbow's angle, got a model without")
+    told = (torch.tensor(array[chosen], dtype=torch.float32) for array in (cases.activation, cases.hand_load))
+    with torch.no_grad():
+        found = module.angle(*told)[0].numpy()
+    missed = found - RANGE * (2 * cases.elbow_angle[chosen] - low - high) / (high - low)
+    module.angle_misfit.fill_(max(float(np.sqrt(np.square(missed).mean())), SMALLEST))
+
+
 def _misfit(values: Values, pod: Pod, amounts: Float[np.ndarray, "cases modes"]) -> Float[np.ndarray, " nodes"]:
     """Root mean square over the cases of the distance between a node's value and that of the surface."""
     squares = np.zeros(values.shape[1])
@@ -84,5 +101,5 @@ def _mm_per_x(module: ModesModule) -> float:
     """How far nodes go for a unit of x: root mean square over the nodes, at the middle of training."""
     position = module.position
     middle = torch.zeros(1, 2, dtype=torch.float64)
-    slope: Tensor = position.tangent(middle).along_x.float() @ position.modes.flatten(0, 1).float().T
+    slope: Tensor = position.tangent(middle)[:, 1].float() @ position.modes.flatten(0, 1).float().T
     return float((3 * slope.square().mean()).sqrt())

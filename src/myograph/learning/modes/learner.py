@@ -47,7 +47,7 @@ class ModesLearner:
         if len(taught) < LEAST_CASES:
             raise InputError(f"{self.name}: expected at least {LEAST_CASES} training cases, got {len(taught)}")
         values = {name: _values(cases, name, taught) for name in self._names(sampler)}
-        pods = {name: proper_modes(array.reshape(len(taught), -1), self.config.modes) for name, array in values.items()}
+        pods = {name: proper_modes(array.reshape(len(taught), -1), self._most(name)) for name, array in values.items()}
         own = MUSCLES.index(cases.muscle)
         along = self._coordinate(cases, taught, pods["position"])
         x = _scaled(along)
@@ -67,6 +67,10 @@ class ModesLearner:
         if "cauchy_stress" in others:
             others.discard("von_mises")
         return ["position", *sorted(others)]
+
+    def _most(self, name: str) -> int:
+        """Modes of a field, at most."""
+        return self.config.modes_of.get(name, self.config.modes)
 
     def _coordinate(self, cases: MuscleCases, taught: Int[np.ndarray, " taught"], pod: Pod) -> np.ndarray:
         if self.config.coordinate == "mode":

@@ -16,7 +16,7 @@ import torch
 from jaxtyping import Float
 from torch import Tensor
 
-from myograph.learning.modes.chebyshev import RANGE
+from myograph.learning.modes.chebyshev import RANGE, products
 from myograph.learning.modes.field_modes import FieldModes, Shapes
 
 STEPS = 6
@@ -47,11 +47,11 @@ def nothing_known(like: Float[Tensor, "batch ..."]) -> Known:
 
 
 def best_of_grid(moved: Float[Tensor, "batch values"], field: FieldModes, sensors: Shapes) -> Float[Tensor, "batch 2"]:
-    """The place of a grid whose shape is nearest to the sensors."""
+    """The place of a grid whose shape is nearest to the sensors; single precision is enough for a start."""
     x, u = (torch.linspace(-RANGE, RANGE, count, dtype=moved.dtype, device=moved.device) for count in GRID)
     places = torch.cartesian_prod(x, u)
-    shapes = field.grid(x, u) @ sensors.modes.T
-    apart = shapes.square().sum(dim=-1) - 2 * moved @ shapes.T
+    shapes = field.grid(x, u).float() @ sensors.modes.float().T
+    apart = shapes.square().sum(dim=-1) - 2 * moved.float() @ shapes.T
     return places[apart.argmin(dim=-1)]
 
 
@@ -63,46 +63,36 @@ def locate(
     sensors: Shapes,
     noise: float,
 ) -> Located:
-    """The place after the last step."""
-    place, normal, largest = start, known.precision, start.new_tensor([LIMIT, RANGE])
+    """The place after the last step.
+
+    With  R = (Φ c - y) / σ  and its slopes along x and u, a step takes the products of the slopes with all three.
+    """
+    seen = field.weights @ sensors.modes.T / noise
+    told = torch.nn.functional.pad(moved.unsqueeze(1) / noise, (0, 0, 0, 2))
+    prior = known.precision.unsqueeze(-1) * start.new_tensor([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    place, normal, largest = start, prior, start.new_tensor([LIMIT, RANGE])
     longest = start.new_tensor(LONGEST)
     for _ in range(STEPS):
-        tangent = field.tangent(place)
-        missed = (moved - tangent.amounts @ sensors.modes.T) / noise
-        along_x, along_u = (slope @ sensors.modes.T / noise for slope in tangent[1:])
-        normal = _normal(along_x, along_u, known.precision)
-        pull = torch.stack([(along_x * missed).sum(dim=-1), (along_u * missed).sum(dim=-1)], dim=-1)
-        step = _solve(normal, pull + known.precision * (known.place - place))
-        place = place + step.clamp(-longest, longest)
+        missed = products(place, field.shape.degrees) @ seen - told
+        normal = (missed[:, 1:].unsqueeze(2) * missed.unsqueeze(1)).sum(dim=-1) + prior
+        step = _solve(normal, known.precision * (place - known.place))
+        place = place - step.clamp(-longest, longest)
         place = place.clamp(-largest, largest)
     return Located(place, _root_of_inverse(normal))
 
 
-def _normal(
-    along_x: Float[Tensor, "batch values"], along_u: Float[Tensor, "batch values"], precision: Float[Tensor, "batch 2"]
-) -> Float[Tensor, "batch 3"]:
-    """Of the symmetric matrix: 1 1, 2 1, 2 2."""
-    return torch.stack(
-        [
-            along_x.square().sum(dim=-1) + precision[:, 0],
-            (along_x * along_u).sum(dim=-1),
-            along_u.square().sum(dim=-1) + precision[:, 1],
-        ],
-        dim=-1,
-    )
-
-
-def _solve(normal: Float[Tensor, "batch 3"], right: Float[Tensor, "batch 2"]) -> Float[Tensor, "batch 2"]:
-    a, b, c = normal.unbind(dim=-1)
-    first, second = right.unbind(dim=-1)
+def _solve(normal: Float[Tensor, "batch 2 3"], pull: Float[Tensor, "batch 2"]) -> Float[Tensor, "batch 2"]:
+    """Of the symmetric matrix in the last two columns, for the sum of the first column and the pull."""
+    first, a, b, second, _, c = normal.flatten(1).split(1, dim=1)
+    beside = pull.split(1, dim=1)
     slope = b / a
-    y = (second - slope * first) / (c - slope * b)
-    return torch.stack([(first - b * y) / a, y], dim=-1)
+    y = (second + beside[1] - slope * (first + beside[0])) / (c - slope * b)
+    return torch.cat([(first + beside[0] - b * y) / a, y], dim=1)
 
 
-def _root_of_inverse(normal: Float[Tensor, "batch 3"]) -> Float[Tensor, "batch 3"]:
-    """L of L Lᵀ = inverse."""
-    a, b, c = normal.unbind(dim=-1)
+def _root_of_inverse(normal: Float[Tensor, "batch 2 3"]) -> Float[Tensor, "batch 3"]:
+    """L of L Lᵀ = inverse of the matrix in the last two columns."""
+    _, a, b, _, _, c = normal.flatten(1).split(1, dim=1)
     left = c - b * b / a
     first = (1 / a + (b / a).square() / left).sqrt()
-    return torch.stack([first, -b / a / left / first, c.rsqrt()], dim=-1)
+    return torch.cat([first, -b / a / left / first, c.rsqrt()], dim=1)

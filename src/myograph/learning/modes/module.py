@@ -16,7 +16,7 @@ from myograph.case import MUSCLES
 from myograph.learning.modes.angle_network import AngleNetwork
 from myograph.learning.modes.chebyshev import RANGE
 from myograph.learning.modes.config import BuiltModes
-from myograph.learning.modes.field_modes import FieldModes, Shapes, Tangent
+from myograph.learning.modes.field_modes import FieldModes, Shapes
 from myograph.learning.modes.locating import Known, Located, best_of_grid, locate, nothing_known
 from myograph.learning.modes.ridge import ridge_amounts
 from myograph.learning.modes.stress import von_mises_change
@@ -68,14 +68,17 @@ class ModesModule(nn.Module):
     def forward(self, *arguments: Tensor) -> tuple[Tensor, ...]:
         """Outputs by the names of `outputs`, of the parts of a question that `inputs` names."""
         parts: Parts = dict(zip(self.inputs, arguments, strict=True))
-        located, sensed = self._located(parts)
-        answers = {name: part.float() for name, part in sensed.items()}
+        located, answers = self._located(parts)
+        sensed = answers.pop("amounts", None)
+        spread = _spread(located)
         for name, field in self.fields.items():
             assert isinstance(field, FieldModes)
-            shapes = field.at(parts["query_nodes"])
-            amounts = answers.get("amounts") if name == "position" else None
-            answers |= _field(name, field, shapes, located, amounts)
-        return tuple(answers[name] for name in self.outputs)
+            amounts = spread @ field.tangent(located.place)
+            if sensed is not None and name == "position" and self.settings.sensing != "surface":
+                amounts = torch.cat([sensed.unsqueeze(1), amounts[:, 1:]], dim=1)
+            found = _field(name, field, amounts.float())
+            answers |= {key: values.index_select(1, parts["query_nodes"]) for key, values in found.items()}
+        return tuple(answers[name].float() for name in self.outputs)
 
     def place(
         self, activation: Float[Tensor, "batch muscles"], hand_load: Float[Tensor, " batch"]
@@ -119,7 +122,7 @@ class ModesModule(nn.Module):
     def _sensed(self, moved: Float[Tensor, "batch values"], sensors: Shapes, located: Located) -> Parts:
         """Amounts of the position modes, and how far the sensors are from what these say [mm]."""
         noise, position = self.settings.sensor_noise, self.position
-        amounts = position.tangent(located.place).amounts
+        amounts = position.tangent(located.place)[:, 0]
         if self.settings.sensing == "ridge":
             amounts = ridge_amounts(moved, sensors.modes, position.spread, noise)
         elif self.settings.sensing == "surface_and_ridge":
@@ -138,23 +141,25 @@ def output_names(built: BuiltModes) -> tuple[str, ...]:
     return (*names, "sensor_residual") if built.settings.reads != "activation" else tuple(names)
 
 
-def _field(
-    name: str, field: FieldModes, shapes: Shapes, located: Located, amounts: Float[Tensor, "batch modes"] | None
-) -> Parts:
-    """The field, of these amounts or those of the place, and its deviation."""
-    tangent = Tangent(*(part.float() for part in field.tangent(located.place)))
-    values = field.values(tangent.amounts if amounts is None else amounts, shapes)
-    first, both, second = located.root.float().unsqueeze(-1).unbind(dim=1)
-    steps = (tangent.along_x * first + tangent.along_u * both, tangent.along_u * second)
-    changes = [field.changes(step, shapes) for step in steps]
-    answers = {name: values if field.shape.components > 1 else values[..., 0]}
+def _spread(located: Located) -> Float[Tensor, "batch 3 3"]:
+    """What makes, of amounts and their slopes, amounts and their changes by one deviation of the place each way."""
+    corner = located.root.new_tensor([[0.0] * 4 + [1, 0, 0, 0, 0], [0.0] * 5 + [1, 0, 0, 0], [0.0] * 8 + [1]])
+    rows = located.root @ corner + located.root.new_tensor([1.0] + [0.0] * 8)
+    return rows.reshape(-1, 3, 3)
+
+
+def _field(name: str, field: FieldModes, amounts: Float[Tensor, "batch 3 modes"]) -> Parts:
+    """The field of the first amounts at all nodes, and its deviation by the others, which are changes."""
+    if name not in DEVIATIONS:
+        values = field.carried(amounts[:, :1]).squeeze(1) + field.mean
+        return {name: values if field.shape.components > 1 else values.squeeze(-1)}
+    first, changes = field.carried(amounts).split([1, 2], dim=1)
+    values = first.squeeze(1) + field.mean
     if name == "position":
-        squares = [change.square().sum(dim=-1) for change in changes]
+        squares = changes.square().sum(dim=(1, 3))
     elif name == "cauchy_stress":
-        squares = [von_mises_change(values, change).square() for change in changes]
-    elif name == "von_mises":
-        squares = [change[..., 0].square() for change in changes]
+        squares = von_mises_change(values.unsqueeze(1), changes).square().sum(dim=1)
     else:
-        return answers
-    answers[DEVIATIONS[name]] = (squares[0] + squares[1] + shapes.misfit.square()).sqrt()
-    return answers
+        squares = changes.squeeze(-1).square().sum(dim=1)
+    deviation = (squares + field.misfit.square()).sqrt()
+    return {name: values if field.shape.components > 1 else values.squeeze(-1), DEVIATIONS[name]: deviation}

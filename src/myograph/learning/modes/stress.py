@@ -17,12 +17,14 @@ def von_mises(stress: Float[Tensor, "*batch 6"]) -> Float[Tensor, "*batch"]:
     return _product(stress, stress).sqrt()
 
 
-def von_mises_change(stress: Float[Tensor, "*batch 6"], change: Float[Tensor, "*batch 6"]) -> Float[Tensor, "*batch"]:
+def von_mises_change(
+    stress: Float[Tensor, "#*batch 6"], change: Float[Tensor, "#*batch 6"]
+) -> Float[Tensor, "#*batch"]:
     """What a small change of the stress changes [MPa]."""
     return _product(stress, change) / von_mises(stress).clamp_min(SMALLEST)
 
 
-def _product(first: Float[Tensor, "*batch 6"], second: Float[Tensor, "*batch 6"]) -> Float[Tensor, "*batch"]:
+def _product(first: Float[Tensor, "#*batch 6"], second: Float[Tensor, "#*batch 6"]) -> Float[Tensor, "#*batch"]:
     normal = _differences(first) * _differences(second)
     shear = first[..., 3:] * second[..., 3:]
     return normal.sum(dim=-1) / 2 + 3 * shear.sum(dim=-1)

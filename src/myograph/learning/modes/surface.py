@@ -49,7 +49,7 @@ def _candidates(place: Float[np.ndarray, "cases 2"]) -> list[Degrees]:
 
 
 def _fit(place: Float[np.ndarray, "cases 2"], amounts: Float[np.ndarray, "cases modes"], degrees: Degrees) -> Surface:
-    terms = products(torch.tensor(place), degrees)[0].numpy()
+    terms = products(torch.tensor(place), degrees)[:, 0].numpy()
     square = terms.T @ terms + RIDGE * len(terms) * np.eye(terms.shape[1])
     lower = np.linalg.cholesky(square)
     half = solve_triangular(lower, terms.T, lower=True)

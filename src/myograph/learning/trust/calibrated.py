@@ -70,9 +70,7 @@ class CalibratedPredictor:
     def predict(self, question: Question) -> Answer:
         """The answer, with intervals and verdict."""
         answer = self.predictor.predict(question)
-        widths = {
-            name: scale[:, None] * deviation_of(answer, name) for name, scale in self._scales(question).items()
-        }
+        widths = {name: scale[:, None] * deviation_of(answer, name) for name, scale in self._scales(question).items()}
         inside = self._inside(question)
         return replace(answer, half_width_90=widths, inside=inside if answer.inside is None else inside & answer.inside)
 
@@ -142,16 +140,16 @@ def calibrate(
     whole = scores(predictor, sampler, pairs)
     residuals = whole.residuals
     limit = CONSERVATIVE * float(np.quantile(residuals, RESIDUAL_LEVEL)) if len(residuals) else None
-    alone = {way: factors_of(scores(predictor, sampler, pairs, way), weights) for way in ways_of(predictor)}
+    alone: dict[Way, dict[str, float]] = {
+        way: factors_of(scores(predictor, sampler, pairs, way), weights) for way in ways_of(predictor)
+    }
     near = nearness(sampler.cases, split.train.cases)
     return CalibratedPredictor(predictor, factors_of(whole, weights), near, limit, alone)
 
 
 def factors_of(found: Scores, weights: Float[np.ndarray, " pairs"] | None = None) -> dict[str, float]:
     """Field -> the factor that holds 90 % of it."""
-    return {
-        name: conformal_factor(errors, found.deviations[name], weights) for name, errors in found.errors.items()
-    }
+    return {name: conformal_factor(errors, found.deviations[name], weights) for name, errors in found.errors.items()}
 
 
 def edge_weights(activation: Float[np.ndarray, "cases muscles"]) -> Float[np.ndarray, " cases"]:

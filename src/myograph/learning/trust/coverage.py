@@ -8,7 +8,7 @@ from jaxtyping import Int
 from myograph.ensemble.pairs.predictor import Predictor
 from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.errors import InputError
-from myograph.learning.trust.calibrated import distance
+from myograph.learning.trust.scores import distance
 
 BATCH = 32
 

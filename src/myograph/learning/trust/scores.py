@@ -34,9 +34,7 @@ class Scores:
     residuals: Float[np.ndarray, " residuals"]
 
 
-def scores(
-    predictor: Predictor, sampler: PairSampler, pairs: Int[np.ndarray, "pairs 2"], way: str = WHOLE
-) -> Scores:
+def scores(predictor: Predictor, sampler: PairSampler, pairs: Int[np.ndarray, "pairs 2"], way: str = WHOLE) -> Scores:
     """At all queries of the sampler, the method being told in this way (`myograph.inference.ways`)."""
     errors: dict[str, list[np.ndarray]] = {}
     deviations: dict[str, list[np.ndarray]] = {}
@@ -50,8 +48,11 @@ def scores(
                 deviations.setdefault(name, []).append(deviation_of(answer, name))
         residual = residual_of(predictor, question)
         residuals += [] if residual is None else [residual]
-    joined = ({name: np.concatenate(parts) for name, parts in told.items()} for told in (errors, deviations))
-    return Scores(*joined, np.concatenate(residuals))
+    return Scores(_joined(errors), _joined(deviations), np.concatenate(residuals))
+
+
+def _joined(parts: dict[str, list[np.ndarray]]) -> dict[str, np.ndarray]:
+    return {name: np.concatenate(own) for name, own in parts.items()}
 
 
 def ways_of(predictor: Predictor) -> tuple[Way, ...]:

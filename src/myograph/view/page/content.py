@@ -244,21 +244,28 @@ def _about(asked: PageArm) -> dict[str, str]:
         "arm": told.origin.arm_checksum[:12],
         "protocol": told.origin.protocol,
     }
-    rows |= _errors(told)
+    rows |= _errors(list(models.told.values()))
     if network is not None:
         its = network.model.told
         rows["network"] = f"{its.name} ({its.muscle}), {its.parameters} numbers"
-        rows |= {f"network, {name}": value for name, value in _errors(its).items()}
+        rows |= {f"network, {name}": value for name, value in _errors([its]).items()}
     solve = asked.solve_time
     if solve is not None:
         rows[solve.what] = f"{solve.seconds:.3g} s: {solve.told}"
     return {name: value for name, value in rows.items() if value} | {"made by": f"myograph {myograph.__version__}"}
 
 
-def _errors(told: ModelFile) -> dict[str, str]:
-    return {
-        f"{protocol}, {figure.removesuffix('_mm')} error": f"{value:.3g} mm ({told.muscle})"
-        for protocol, figures in told.metrics.items()
-        for figure, value in figures.items()
-        if figure in ("mean_mm", "max_mm")
-    }
+def _errors(models: Sequence[ModelFile]) -> dict[str, str]:
+    """Of each protocol, the mean and the largest error of the muscle that has the largest."""
+    rows = {}
+    for protocol in models[0].metrics:
+        for figure in ("mean_mm", "max_mm"):
+            known = [
+                (told.metrics[protocol][figure], told.muscle)
+                for told in models
+                if figure in told.metrics.get(protocol, {})
+            ]
+            if known:
+                value, muscle = max(known)
+                rows[f"{protocol}, {figure.removesuffix('_mm')} error"] = f"{value:.3g} mm ({muscle})"
+    return rows

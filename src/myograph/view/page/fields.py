@@ -16,6 +16,8 @@ from myograph.view.page.network import PageNetwork
 from myograph.view.page.truth import TruthCase
 
 SAMPLED, SEED, PERCENTILE = 24, 0, 95.0
+TWO_SIDED = {"fibre_stretch": 1.0}
+"""Fields whose colours end as far below as above a value that means: nothing has changed."""
 DRAWN_ANYHOW = ("position", "cauchy_stress", "von_mises")
 
 
@@ -56,7 +58,12 @@ def field_choices(
     for key in [*words, *(name for name in found if name not in words)]:
         if key in found:
             label, unit, meaning = words.get(key) or (key.replace("_", " "), FIELDS[key].unit, FIELDS[key].meaning)
-            choices.append(FieldChoice(key, label, unit, *_ends(found[key], key in words), meaning))
+            low, high = _ends(found[key], key in words)
+            if key in TWO_SIDED:
+                middle = TWO_SIDED[key]
+                far = max(middle - low, high - middle)
+                low, high = middle - far, middle + far
+            choices.append(FieldChoice(key, label, unit, low, high, meaning))
     return choices
 
 

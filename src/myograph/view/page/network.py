@@ -69,7 +69,9 @@ class PageNetwork:
             "query_places": places[nodes],
             "query_position_initial": self.rest[nodes],
         }
-        return {name: every[name][None].astype(np.float32) for name in self.model.told.signature.inputs if name in every}
+        return {
+            name: every[name][None].astype(np.float32) for name in self.model.told.signature.inputs if name in every
+        }
 
     def positions(
         self, activation: Float[np.ndarray, " muscles"], hand_load: float, nodes: Int[np.ndarray, " some"]
@@ -136,9 +138,9 @@ def _check(folder: Path, model: LoadedModel, arm: ArmModels) -> None:
     anywhere = any(name.startswith("query_") for name in signature.inputs)
     if foreign or not anywhere or "position" not in signature.outputs:
         raise InputError(
-            f"{folder}: expected neural modes that answer from activations, or a network that gives the position of any "
-            f"point and reads no more than {', '.join((*STILL, *ASKED))}; got the method '{told.method}', which reads "
-            f"{', '.join(signature.inputs)} and gives {', '.join(signature.outputs)}"
+            f"{folder}: expected neural modes that answer from activations, or a network that gives positions of "
+            f"any points and reads no more than {', '.join((*STILL, *ASKED))}; got the method '{told.method}', which "
+            f"reads {', '.join(signature.inputs)} and gives {', '.join(signature.outputs)}"
         )
     if signature.takes_sensors and not signature.sensors:
         raise InputError(f"{folder}: expected a model that names the sensors of its training, got none")
@@ -169,12 +171,15 @@ def _graph_nodes(folder: Path, model: LoadedModel) -> Float[np.ndarray, "graph_n
 
 
 def _boxes(network: PageNetwork) -> tuple[np.ndarray, np.ndarray]:
-    """Where each sensor was in training, widened as `myograph.inference.verdict` does."""
+    """Where each sensor was in training: widened as in `myograph.inference.verdict`, and by how far it is elsewhere at
+    rest in the arm's mesh than in the network's.
+    """
     body = network.model.body
     nodes = list(network.model.told.signature.sensors)
     low, high = body.low[nodes].astype(np.float64), body.high[nodes].astype(np.float64)
     length = float(np.linalg.norm(np.ptp(body.rest["position"], axis=0)))
-    slack = WIDENED * np.linalg.norm(high - low, axis=-1, keepdims=True) + MEASURED * length
+    other = np.linalg.norm(network.sensors @ network.rest - body.rest["position"][nodes], axis=-1, keepdims=True)
+    slack = WIDENED * np.linalg.norm(high - low, axis=-1, keepdims=True) + MEASURED * length + other
     return low - slack, high + slack
 
 

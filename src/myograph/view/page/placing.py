@@ -34,12 +34,25 @@ def place_tissue(
     candidates = tree.query(places, k=several)[1].reshape(len(places), several)
     weights = np.zeros((len(places), len(nodes)))
     for place, near, row in zip(places, candidates, weights, strict=True):
-        local, outside = zip(*(_local(element, nodes[cells[cell]], place) for cell in near), strict=True)
-        best = int(np.argmin(outside))
-        if not outside[best] <= FARTHEST:
+        cell, local, outside = _around(element, nodes, cells[near], place)
+        if not outside <= FARTHEST:
             raise InputError(f"expected places in the body, got {np.round(place, 2).tolist()} mm: it is outside")
-        row[cells[near[best]]] = element.values(local[best][None])[0]
+        row[cell] = element.values(local[None])[0]
     return weights
+
+
+def _around(
+    element: Element, nodes: Float[np.ndarray, "nodes 3"], near: Int[np.ndarray, "cells n"], place: np.ndarray
+) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, " 3"], float]:
+    """The element that contains a place best, its local coordinates there, and how far these are outside."""
+    best = (near[0], element.nodes.mean(axis=0), np.inf)
+    for cell in near:
+        local, outside = _local(element, nodes[cell], place)
+        if outside < best[2]:
+            best = (cell, local, outside)
+        if outside == 0:
+            break
+    return best
 
 
 def _local(

@@ -3,8 +3,8 @@
 `runtime.html` is what a page with a network has besides: onnxruntime-web as a worker and its WebAssembly, which are
 text of the page until the network is asked for. Only such a page may compile WebAssembly.
 
-Both are made of `web/` by `npm --prefix web ci && npm --prefix web run build`, which an installation does by itself where
-npm is there; they are no files of the repository.
+Both are made of `web/` by `npm --prefix web ci && npm --prefix web run build`, which an installation does by itself
+where npm is there; they are no files of the repository.
 """
 
 from html import escape

@@ -14,14 +14,14 @@ from myograph.cli.reproduce.experiment import Experiment, corners, taught_twice
 from myograph.cli.reproduce.outcome import Outcome, Row, table_rows
 from myograph.cli.reproduce.pictures import over
 from myograph.cli.reproduce.sizes import Size
-from myograph.cli.reproduce.trial import Chosen, Drawn, Trial
+from myograph.cli.reproduce.trial import Choice, Chosen, Drawn, Trial
 from myograph.evaluation import Figure
 from myograph.view.bands import Axes, Band, draw_bands
 
 WITHIN_MM = 0.5
 MODES = (2, 3, 4, 6, 8, 16)
 LATENTS = (4, 8, 16, 32)
-CHOICES = {"random": "random", "deviation": "largest deviation", "overall": "least deviation left"}
+CHOICES: dict[Choice, str] = {"random": "random", "deviation": "largest deviation", "overall": "least deviation left"}
 """How the next case is chosen -> as it stands in the table."""
 SMALLEST = f"smallest within {WITHIN_MM} mm"
 
@@ -59,7 +59,7 @@ def _curve(data: Data, size: Size) -> list[Trial]:
 def figures(outcome: Outcome) -> tuple[Figure, ...]:
     """Error over size, and over the number of simulations."""
     counts = _counts(outcome.data, outcome.size)
-    kinds = [("pod_gp", by) for by in CHOICES] + [("neural_modes", "random")]
+    kinds: list[tuple[str, Choice]] = [*(("pod_gp", by) for by in CHOICES), ("neural_modes", "random")]
     groups = {
         f"{method}, {CHOICES[by]}": {float(count): _taught(method, count, by) for count in counts}
         for method, by in kinds
@@ -82,9 +82,7 @@ def rows(outcome: Outcome) -> list[Row]:
 
 def _smallest(outcome: Outcome, names: Sequence[str]) -> str | None:
     within = [
-        name
-        for name in names
-        if all(outcome.mean(name, protocol) <= WITHIN_MM for protocol in ("strict", "off_grid"))
+        name for name in names if all(outcome.mean(name, protocol) <= WITHIN_MM for protocol in ("strict", "off_grid"))
     ]
     return min(within, key=lambda name: outcome.of(name, "off_grid")[0].told["weights_kb"], default=None)
 
@@ -121,7 +119,7 @@ def _thin(latent: int) -> str:
     return f"gen_8, latent {latent}"
 
 
-def _taught(method: str, count: int, by: str) -> str:
+def _taught(method: str, count: int, by: Choice) -> str:
     return f"{method}, {count} cases, {CHOICES[by]}"
 
 

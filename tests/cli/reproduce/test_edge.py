@@ -1,0 +1,32 @@
+"""The section 'edge': what is tried, and which model it calls the smallest within the limit."""
+
+import pytest
+
+from myograph.cli.reproduce.cache import Found
+from myograph.cli.reproduce.outcome import Outcome
+from myograph.cli.reproduce.sections import edge
+from myograph.cli.reproduce.sections.edge import CHOICES, SMALLEST, rows
+
+
+def test_the_learning_curve_has_each_choice_at_each_count_from_as_many_seeds(data):
+    curve = [trial for trial in edge.trials(data, data.size) if trial.drawn is not None]
+    drawn = [(trial.drawn, trial.seed) for trial in curve if trial.method == "pod_gp"]
+    processes = [(own.count, own.by, seed) for own, seed in drawn if own is not None]
+    assert sorted(processes) == sorted((8, by, seed) for by in CHOICES for seed in range(data.size.seeds))
+    assert {trial.teaching for trial in curve} == {"off_grid"}
+    assert len({trial.key({"ensemble": "x"}) for trial in curve}) == len(curve)
+
+
+@pytest.mark.parametrize(("errors", "within"), [((0.4, 0.6), False), ((0.4, 0.5), True), ((0.6, 0.1), False)])
+def test_the_smallest_model_is_within_the_limit_under_both_protocols(data, errors, within):
+    trials = [trial for trial in edge.trials(data, data.size) if trial.drawn is None]
+    of_protocol = {"off_grid": {"thesis": 9.0, "off_grid": errors[0]}, "strict": {"strict": errors[1]}}
+    outcomes = []
+    for trial in trials:
+        mean = of_protocol[trial.teaching] if trial.method == "neural_modes" else {"thesis": 9.0, "off_grid": 9.0}
+        mean = mean if trial.method == "neural_modes" or trial.teaching == "off_grid" else {"strict": 9.0}
+        told = {"protocols": {protocol: {"mean_mm": value} for protocol, value in mean.items()}}
+        outcomes.append(Found({**told, "seconds": 1.0, "weights_kb": 2.0}))
+    names = [row["name"] for row in rows(Outcome(data, data.size, trials, outcomes, {}))]
+    smallest = [name for name in names if name.startswith(SMALLEST)]
+    assert smallest == [f"{SMALLEST}: neural_modes, 2 modes"] * (3 if within else 0)
