@@ -59,7 +59,10 @@ def scales_of(
         return {name: np.full(question.size, scale) for name, scale in whole.items()}
     known = ~np.isnan(question.activation).all(axis=1)
     sensed = len(question.sensor_nodes) > 0
-    only: dict[Way, np.ndarray] = {"activation": known & (not sensed), "sensors": ~known & sensed}
+    only: dict[Way, np.ndarray] = {
+        "activation": np.asarray(known & (not sensed)),
+        "sensors": np.asarray(~known & sensed),
+    }
     found = {}
     for name, scale in whole.items():
         found[name] = np.full(question.size, scale)
