@@ -59,10 +59,8 @@ def scales_of(
         return {name: np.full(question.size, scale) for name, scale in whole.items()}
     known = ~np.isnan(question.activation).all(axis=1)
     sensed = len(question.sensor_nodes) > 0
-    only: dict[Way, np.ndarray] = {
-        "activation": np.asarray(known & (not sensed)),
-        "sensors": np.asarray(~known & sensed),
-    }
+    none = np.zeros_like(known)
+    only: dict[Way, np.ndarray] = {"activation": none if sensed else known, "sensors": ~known if sensed else none}
     found = {}
     for name, scale in whole.items():
         found[name] = np.full(question.size, scale)

@@ -9,7 +9,8 @@ content    all of it as JSON and one blob of numbers
 template   the built page that these are put into
 """
 
-from myograph.view.page.content import PageArm, page_content
+from myograph.view.page.asked import PageArm
+from myograph.view.page.content import page_content
 from myograph.view.page.network import PageNetwork, is_network, read_network
 from myograph.view.page.solving import SolveTime, shipped_solve_time
 from myograph.view.page.source import ArmModels, read_arm_models
