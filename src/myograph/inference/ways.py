@@ -57,7 +57,7 @@ def scales_of(
     """Field -> the scale of each pair, by the way it is told; those of `whole` where `alone` says nothing else."""
     if not alone or not ways(signature):
         return {name: np.full(question.size, scale) for name, scale in whole.items()}
-    known = ~np.isnan(question.activation).all(axis=1)
+    known = np.asarray(~np.isnan(question.activation).all(axis=1))
     sensed = len(question.sensor_nodes) > 0
     none = np.zeros_like(known)
     only: dict[Way, np.ndarray] = {"activation": none if sensed else known, "sensors": ~known if sensed else none}
