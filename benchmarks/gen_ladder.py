@@ -3,7 +3,8 @@
     python benchmarks/gen_ladder.py --store DIR [--muscle biceps] [--rows NAME ...] [--protocol strict off_grid]
         [--seeds 3] [--steps 300] [--batch 8] [--queries 64] [--nodes-per-axis 2] [--learning-rate 6e-3] [--json]
 
-Every row is trained alike, from as many seeds; `traps` are rows of the thesis network with one mistake each.
+Every row is trained alike, from as many seeds; `traps` are rows of the thesis network with one mistake each. Beside the
+error stands how far volumes change where elements are integrated: mean and largest |det F - 1| of some test cases.
 """
 
 import argparse
@@ -21,10 +22,14 @@ from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
 from myograph.ensemble.store.reading import read_muscle
 from myograph.learning.gen.config import NetworkConfig, Traps
 from myograph.learning.gen.learner import GenLearner
+from myograph.learning.modes.volume import volume_ratios
+from myograph.learning.physics.config import Physics
 from myograph.learning.training import TrainingConfig
 
 TESTED = 300
 """Test pairs at most, drawn at random."""
+WEIGHED = 32
+"""Of these, pairs whose volumes are looked at."""
 THESIS = NetworkConfig.thesis()
 ROWS: dict[str, NetworkConfig] = {
     "thesis": THESIS,
@@ -39,6 +44,7 @@ ROWS: dict[str, NetworkConfig] = {
     "per-node sharpness": NetworkConfig(sharpness="per_node"),
     "fixed sharpness": NetworkConfig(sharpness="fixed"),
     "material": NetworkConfig(),
+    "physics": NetworkConfig(physics=Physics(volume=0.3, clamped=0.003)),
     "stress heads": NetworkConfig(outputs=(("displacement",), ("von_mises",))),
     "nearest, 4 nodes": NetworkConfig(representer="nearest", nearest=4),
     "context": NetworkConfig(context=True),
@@ -47,8 +53,10 @@ ROWS: dict[str, NetworkConfig] = {
     "activation": NetworkConfig(activation_input=True, reads="sensors_and_activation"),
     "improved": NetworkConfig.improved(),
 }
-MATERIAL = {"material"}
+MATERIAL = {"material", "physics"}
 """Rows that name points by where they are in the reference body; all others do by where they were at first."""
+Measured = tuple[float, float, float]
+"""Mean error [mm], mean and largest |det F - 1| [-]."""
 
 
 def main() -> None:
@@ -56,7 +64,7 @@ def main() -> None:
     asked = _arguments()
     torch.set_num_threads(1)
     cases = read_muscle(asked.store, asked.muscle)
-    found: dict[str, dict[str, list[float]]] = {}
+    found: dict[str, dict[str, list[Measured]]] = {"truth": {}}
     for name in asked.rows or ROWS:
         network = ROWS[name].model_copy(update={"nodes_per_axis": asked.nodes_per_axis})
         convention = "material" if name in MATERIAL else "initial"
@@ -65,20 +73,37 @@ def main() -> None:
         found[name] = {}
         for protocol in asked.protocol:
             split = split_pairs(cases, protocol)
+            truth = cases.values("position", tested(split)[:WEIGHED, 1])
+            found["truth"][protocol] = [(0.0, *volume_changes(sampler, truth))]
             trained = [GenLearner(network, _training(asked, seed)).fit(sampler, split) for seed in range(asked.seeds)]
-            found[name][protocol] = [mean_error(predictor, sampler, split) for predictor in trained]
+            found[name][protocol] = [measured(predictor, sampler, split) for predictor in trained]
     print(json.dumps(found)) if asked.json else Console().print(_table(found, asked.protocol))
 
 
-def mean_error(predictor: Predictor, sampler: PairSampler, split: Split) -> float:
-    """Mean distance over test pairs and queries [mm]."""
-    count = min(TESTED, len(split.test))
-    pairs = split.test[np.random.default_rng(0).choice(len(split.test), count, replace=False)]
+def measured(predictor: Predictor, sampler: PairSampler, split: Split) -> Measured:
+    """Mean distance over test pairs and queries [mm]; mean and largest |det F - 1| [-], NaN without elements."""
+    pairs = tested(split)
     distances = [
         np.linalg.norm(predictor.predict(batch.question).values["position"] - batch.truth["position"], axis=-1)
         for batch in sampler.batches(pairs)
     ]
-    return float(np.concatenate(distances).mean())
+    asked = sampler.batch(pairs[:WEIGHED], np.arange(sampler.cases.nodes)).question
+    changes = volume_changes(sampler, predictor.predict(asked).values["position"])
+    return (float(np.concatenate(distances).mean()), *changes)
+
+
+def volume_changes(sampler: PairSampler, positions: np.ndarray) -> tuple[float, float]:
+    """Mean and largest |det F - 1| of positions of all nodes [-]; NaN without elements."""
+    if not len(sampler.cases.body.cells):
+        return np.nan, np.nan
+    ratios = volume_ratios(sampler.cases.body, positions)
+    return ratios.change, ratios.largest_change
+
+
+def tested(split: Split) -> np.ndarray:
+    """Test pairs that are looked at."""
+    count = min(TESTED, len(split.test))
+    return split.test[np.random.default_rng(0).choice(len(split.test), count, replace=False)]
 
 
 def _training(asked: argparse.Namespace, seed: int) -> TrainingConfig:
@@ -87,10 +112,15 @@ def _training(asked: argparse.Namespace, seed: int) -> TrainingConfig:
     )
 
 
-def _table(found: dict[str, dict[str, list[float]]], protocols: list[str]) -> Table:
-    table = Table("network", *(f"{protocol}, mm" for protocol in protocols))
-    for name, errors in found.items():
-        table.add_row(name, *(f"{np.mean(errors[p]):.2f} ± {np.std(errors[p]):.2f}" for p in protocols))
+def _table(found: dict[str, dict[str, list[Measured]]], protocols: list[str]) -> Table:
+    columns = [f"{protocol}, {what}" for protocol in protocols for what in ("mm", "mean |J-1|", "largest |J-1|")]
+    table = Table("network", *columns)
+    for name, rows in found.items():
+        cells = []
+        for protocol in protocols:
+            errors, changes, largest = np.array(rows[protocol]).T
+            cells += [f"{errors.mean():.2f} ± {errors.std():.2f}", f"{changes.mean():.3f}", f"{largest.max():.2f}"]
+        table.add_row(name, *cells)
     return table
 
 

@@ -20,6 +20,7 @@ Rebuild = Callable[[Mapping[str, Any], Shapes], nn.Module]
 REBUILD: dict[str, str] = {
     "gen": "myograph.learning.gen.rebuild:rebuild",
     "modes": "myograph.learning.modes.rebuild:rebuild",
+    "gappy_pod": "myograph.learning.baselines.gappy_module:rebuild",
     "feed_forward": "myograph.learning.baselines.node_network:rebuild",
     "deeponet": "myograph.learning.baselines.deeponet_module:rebuild",
     "pod_gp": "myograph.learning.baselines.gp_module:rebuild",

@@ -48,7 +48,7 @@ def draw_heat_maps(
     scale = _colour_scale(max(float(np.nanmax(values[skin])) for values in errors.values()))
     panels = figure.subplots(2, len(errors), squeeze=False)
     for axes, (method, values) in zip(panels[0], errors.items(), strict=True):
-        axes.set_title(f"{method}\nmean {np.nanmean(values):.2f} {unit}", color=INK, fontsize=10)
+        axes.set_title(f"{method}\nmean {np.nanmean(values):.3g} {unit}", color=INK, fontsize=10)
     for row, (side, camera), extent in zip(panels, sides.items(), extents, strict=True):
         for axes, values in zip(row, errors.values(), strict=True):
             set_stage(axes, extent)

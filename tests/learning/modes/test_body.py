@@ -29,6 +29,12 @@ def test_an_affine_map_changes_all_volumes_by_its_determinant(element):
     assert ratios.negative == 0
 
 
+def test_the_change_of_volume_is_counted_both_ways():
+    body = bent(HEX27)
+    ratios = volume_ratios(body, np.stack([body.reference * size for size in ([1, 1, 1.1], [1, 1, 0.7])]))
+    assert (ratios.change, ratios.largest_change) == pytest.approx((0.2, 0.3))
+
+
 def test_a_mirrored_body_is_turned_over():
     body = bent(HEX27)
     assert volume_ratios(body, (body.reference * [1, 1, -1])[None]).negative == 1

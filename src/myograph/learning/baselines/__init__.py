@@ -8,7 +8,7 @@ feed_forward         the thesis's network                                   from
 pod_gp               Gaussian processes on modes                            from activations
 deeponet             a field conditioned on what drives it                  from activations, sensors, or both
 
-The last three need torch, `pod_gp` scikit-learn too: they are imported from their own files.
+The last three are imported from their own files; `pod_gp` needs scikit-learn.
 """
 
 from myograph.ensemble.pairs.predictor import Predictor

@@ -5,7 +5,7 @@ r"""Gappy POD: coefficients of the modes from what a few sensors say.
 σ_k is the spread of c_k over the training cases and ε [mm] what a sensor is trusted to: the ridge keeps modes that the
 sensors hardly see near their mean, so that any sensors in any number give an answer. The number of modes and ε are
 those with the smallest mean error on every fifth training case, left out of the modes; then all cases make the modes.
-Convention: answers at the nodes that it was fitted to, so that both ways to name points give the same.
+Convention: answers at the nodes that it was fitted to; both ways to name points give the same.
 Sources: Everson & Sirovich 1995; ridge by the spread as in Tikhonov's and the Bayesian reading.
 """
 
@@ -14,16 +14,17 @@ from itertools import product
 from typing import final
 
 import numpy as np
-from jaxtyping import Float, Int
+import torch
+from jaxtyping import Float
 
 from myograph.ensemble.pairs.predictor import Progress
 from myograph.ensemble.pairs.protocols import Split
-from myograph.ensemble.pairs.question import Answer, Question
 from myograph.ensemble.pairs.sampler import PairSampler
-from myograph.errors import InputError
+from myograph.inference.signature import Signature
+from myograph.learning.baselines.gappy_module import GappyPodModule, GappyPodShape
 from myograph.learning.baselines.pod import Pod, pod_of
-from myograph.learning.baselines.sensed import sensed_movement
 from myograph.learning.baselines.taught import taught_cases
+from myograph.learning.torch_predictor import TorchPredictor
 
 COUNTS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
 TRUSTS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0)
@@ -38,73 +39,50 @@ class GappyPod:
 
     name = "gappy_pod"
 
-    def fit(self, sampler: PairSampler, split: Split, progress: Progress | None = None) -> "FittedGappyPod":
+    def fit(self, sampler: PairSampler, split: Split, progress: Progress | None = None) -> TorchPredictor:
         """Modes of the training cases, their number and ε chosen for the sampler's sensors."""
         positions = sampler.cases.values("position", taught_cases(split))
         held = np.arange(len(positions)) % LEFT_OUT == LEFT_OUT - 1
         most = pod_of(positions[~held], max(COUNTS))
         counts = sorted({min(count, len(most.modes)) for count in COUNTS})
         tried = {
-            (count, trust): _error(_fitted(most, count, trust), positions[held], sampler)
+            (count, trust): Tried(most, count, trust).error(positions[held], sampler)
             for count, trust in product(counts, TRUSTS)
         }
         count, trust = min(tried, key=lambda choice: tried[choice])
-        return _fitted(pod_of(positions, count), count, trust)
+        return _predictor(pod_of(positions, count), trust, sampler)
 
 
-@final
 @dataclass(frozen=True)
-class FittedGappyPod:
-    """Modes of a body's positions.
+class Tried:
+    """Some modes and ε [mm]."""
 
-    Parameters
-    ----------
-    mean, spread, trust
-        Mean position of each node, σ of each mode's coefficient, ε [mm].
-    """
-
-    mean: Float[np.ndarray, "nodes 3"]
-    modes: Float[np.ndarray, "modes nodes 3"]
-    spread: Float[np.ndarray, " modes"]
+    pod: Pod
+    count: int
     trust: float
-    name: str = "gappy_pod"
-    fields: tuple[str, ...] = ("position",)
 
-    @property
-    def parameters(self) -> int:
-        """Number of learned numbers."""
-        return self.mean.size + self.modes.size + self.spread.size
-
-    def predict(self, question: Question) -> Answer:
-        """Positions [mm]; raises InputError for sensors that are not finite, doubled, or no nodes of the body."""
-        _, measured = sensed_movement(question, at_least=1)
-        nodes = len(self.mean)
-        for asked in (question.sensor_nodes, question.query_nodes):
-            if len(asked) and not 0 <= asked.min() <= asked.max() < nodes:
-                raise InputError(
-                    f"gappy_pod: expected the nodes 0 to {nodes - 1} of its body, got {asked.min()} to {asked.max()}"
-                )
-        coefficients = self.coefficients(question.sensor_nodes, measured)
-        at_queries = self.modes[:, question.query_nodes]
-        return Answer({"position": self.mean[question.query_nodes] + np.tensordot(coefficients, at_queries, 1)})
-
-    def coefficients(
-        self, sensors: Int[np.ndarray, " sensors"], measured: Float[np.ndarray, "batch sensors 3"]
-    ) -> Float[np.ndarray, "batch modes"]:
-        """Of the modes, in units of their spread inside: the ridge is then the same for all."""
-        seen = (self.modes[:, sensors].reshape(len(self.spread), -1) * self.spread[:, None]).T
-        told = (measured - self.mean[sensors]).reshape(len(measured), -1)
-        matrix = np.concatenate([seen, self.trust * np.eye(len(self.spread))])
-        right = np.concatenate([told, np.zeros((len(told), len(self.spread)))], axis=1)
-        return np.linalg.lstsq(matrix, right.T, rcond=None)[0].T * self.spread
+    def error(self, positions: Float[np.ndarray, "cases nodes 3"], sampler: PairSampler) -> float:
+        """Mean distance at the sampler's queries, from its sensors [mm]."""
+        pod, some = self.pod, slice(self.count)
+        seen = (pod.modes[some, sampler.sensors].reshape(self.count, -1) * pod.spread[some, None]).T
+        told = (positions - pod.mean)[:, sampler.sensors].reshape(len(positions), -1)
+        matrix = np.concatenate([seen, self.trust * np.eye(self.count)])
+        right = np.concatenate([told, np.zeros((len(told), self.count))], axis=1)
+        amounts = np.linalg.lstsq(matrix, right.T, rcond=None)[0].T * pod.spread[some]
+        answered = pod.mean + np.tensordot(amounts, pod.modes[some], 1)
+        return float(np.linalg.norm((answered - positions)[:, sampler.queries], axis=-1).mean())
 
 
-def _fitted(pod: Pod, count: int, trust: float) -> FittedGappyPod:
-    return FittedGappyPod(pod.mean, pod.modes[:count], pod.spread[:count], trust)
-
-
-def _error(fitted: FittedGappyPod, positions: Float[np.ndarray, "cases nodes 3"], sampler: PairSampler) -> float:
-    """Mean distance at the sampler's queries [mm]."""
-    coefficients = fitted.coefficients(sampler.sensors, positions[:, sampler.sensors])
-    answered = fitted.mean + np.tensordot(coefficients, fitted.modes, 1)
-    return float(np.linalg.norm((answered - positions)[:, sampler.queries], axis=-1).mean())
+def _predictor(pod: Pod, trust: float, sampler: PairSampler) -> TorchPredictor:
+    shape = GappyPodShape(kept_modes=len(pod.modes), body_nodes=sampler.cases.nodes, trust=trust)
+    module = GappyPodModule(shape)
+    learned = {"mean": pod.mean, "modes": pod.modes, "spread": pod.spread}
+    module.load_state_dict({name: torch.from_numpy(np.asarray(values, np.float64)) for name, values in learned.items()})
+    signature = Signature(
+        inputs=("sensor_nodes", "sensor_position_target", "query_nodes"),
+        outputs=("position",),
+        convention=sampler.convention,
+        sensors=tuple(sampler.sensors.tolist()),
+        any_sensors=True,
+    )
+    return TorchPredictor(GappyPod.name, "gappy_pod", module.eval(), signature, shape)

@@ -11,7 +11,7 @@ AFFINE_SENSORS = 4
 
 
 def sensed_movement(
-    question: Question, at_least: int = AFFINE_SENSORS
+    question: Question,
 ) -> tuple[Float[np.ndarray, "batch sensors 3"], Float[np.ndarray, "batch sensors 3"]]:
     """Places of the sensors and where they are in the target cases [mm].
 
@@ -21,8 +21,8 @@ def sensed_movement(
     for points in (places, targets, question.query_places):
         if not np.isfinite(points).all():
             raise InputError("sensors and queries: expected finite positions in mm, got NaN or infinity")
-    if places.shape[1] < at_least:
-        raise InputError(f"expected at least {at_least} sensors, got {places.shape[1]}; measure more nodes")
+    if places.shape[1] < AFFINE_SENSORS:
+        raise InputError(f"expected at least {AFFINE_SENSORS} sensors, got {places.shape[1]}; measure more nodes")
     for pair, own in enumerate(places):
         different = len(np.unique(own, axis=0))
         if different < len(own):

@@ -11,6 +11,7 @@ from pydantic import Field
 
 from myograph.config import Model
 from myograph.ensemble.pairs.features import Feature
+from myograph.learning.physics.config import Physics
 
 Processor = Literal[
     "gcn",
@@ -94,6 +95,8 @@ class NetworkConfig(Model):
         With an activation input: share of training steps without sensors, and share of samples without activation.
     reads
         What of them the module reads when it is used.
+    physics
+        What a training minds beside the cases: that volumes stay, and the clamped end.
     traps
         Mistakes to be shown.
     """
@@ -116,6 +119,7 @@ class NetworkConfig(Model):
     activation_input: bool = False
     dropout: float = Field(default=0.3, ge=0, lt=0.5)
     reads: Reads = "sensors"
+    physics: Physics = Physics()
     traps: Traps = Traps()
 
     @property

@@ -16,6 +16,7 @@ from myograph.learning.gen.config import NetworkConfig, Reads
 from myograph.learning.gen.muscle import MuscleGen
 from myograph.learning.gen.scaling import fit_scaling
 from myograph.learning.gen.trainable import GenTrainable
+from myograph.learning.physics.terms import physics_terms
 from myograph.learning.torch_predictor import TorchPredictor
 from myograph.learning.training import History, TrainingConfig, train
 from myograph.learning.training.drawing import hold_out
@@ -94,7 +95,8 @@ class GenLearner:
         scaling = fit_scaling(sampler, taught, features, self.training.seed)
         module = MuscleGen(config, scaling, self.training.seed)
         _check_sampler(module, sampler)
-        trainable = GenTrainable(module, sampler, taught, validated, self.training)
+        physics = physics_terms(config.physics, sampler, taught)
+        trainable = GenTrainable(module, sampler, taught, validated, self.training, physics)
         if config.skip == "affine":
             _scale_what_is_left(trainable)
         return trainable

@@ -159,6 +159,10 @@ def _check(config: NetworkConfig) -> None:
         raise InputError("inputs: expected features at the sensors, got none")
     if config.reads != "sensors" and not config.activation_input:
         raise InputError(f"reads '{config.reads}': expected a network with an activation input; set activation_input")
+    if config.physics.minded and "position" not in fields:
+        raise InputError(f"physics: expected a network that answers positions, got {', '.join(fields)}")
+    if config.physics.volume and config.traps.legacy_axis:
+        raise InputError("physics: with the trap 'legacy_axis' an answer has no derivative of its own; set volume to 0")
     if config.skip == "affine" and (answers != ("displacement",) or config.activation_input):
         raise InputError(
             "skip 'affine': expected 'displacement' as the only output, and no activation input, which must do "

@@ -1,6 +1,6 @@
 """What the training loop needs to train a graph element network on pairs of cases.
 
-Loss: mean over samples, queries and numbers of the squared error of the scaled features.
+Loss: mean over samples, queries and numbers of the squared error of the scaled features, and the terms of physics.
 The processor's weights work once in every round, so that their rate is divided by the number of rounds: without that,
 many rounds of one layer lose what the sensors said. Source: thesis section 5.4 for a rate of the nodes' own.
 """
@@ -14,12 +14,13 @@ from jaxtyping import Float, Int
 from torch import Tensor
 
 from myograph.ensemble.pairs.protocols import PairSet
-from myograph.ensemble.pairs.question import Batch
+from myograph.ensemble.pairs.question import Batch, Question
 from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.inference.feeds import feeds
 from myograph.learning.gen.muscle import MuscleGen
+from myograph.learning.physics.terms import Asking, PhysicsTerms
 from myograph.learning.training.config import TrainingConfig
-from myograph.learning.training.drawing import draw_batch
+from myograph.learning.training.drawing import draw_batch, share_of
 from myograph.learning.training.trainable import device_of
 
 VALIDATED = 64
@@ -36,6 +37,8 @@ class GenTrainable:
     ----------
     pairs, validated
         Pairs that teach; pairs that are held out, none where there is no validation.
+    physics
+        What is minded beside the cases, if anything.
     """
 
     module: MuscleGen
@@ -43,6 +46,7 @@ class GenTrainable:
     pairs: PairSet
     validated: PairSet
     config: TrainingConfig
+    physics: PhysicsTerms | None = None
 
     def parameter_groups(self, rate: float) -> list[dict[str, Any]]:
         """Weights, the processor's weights, and what neither decays nor is a weight: sharpness and node positions."""
@@ -67,7 +71,11 @@ class GenTrainable:
         module = self.module
         wanted = module.wanted(parts, truth)
         error = module.scaled(parts) - wanted
-        return error.square().mean(), self._rmse(error.detach(), wanted, parts)
+        loss, rmse = error.square().mean(), self._rmse(error.detach(), wanted, parts)
+        if self.physics is not None:
+            pairs = share_of(self.pairs.draw(generator, self.config.batch))
+            loss = loss + self.physics.loss(Asking(self.parts, self.positions), pairs, generator)
+        return loss, rmse
 
     def validation_mm(self) -> float | None:
         """Mean distance [mm], or mean error of the first field, over some held-out pairs at all queries."""
@@ -94,11 +102,19 @@ class GenTrainable:
 
     def tensors(self, batch: Batch) -> tuple[Parts, Parts]:
         """Parts of the question and the right fields, where the module is."""
-        device = device_of(self.module)
-        given, right = feeds(batch.question, self.module.inputs), batch.truth
-        parts = {name: torch.from_numpy(array).to(device) for name, array in given.items()}
+        device, right = device_of(self.module), batch.truth
         truth = {name: torch.from_numpy(np.asarray(values, np.float32)).to(device) for name, values in right.items()}
-        return parts, truth
+        return self.parts(batch.question), truth
+
+    def parts(self, question: Question) -> Parts:
+        """Parts of the question that the module reads, where it is."""
+        device = device_of(self.module)
+        return {name: torch.from_numpy(array).to(device) for name, array in feeds(question, self.module.inputs).items()}
+
+    def positions(self, parts: Parts) -> Float[Tensor, "batch queries 3"]:
+        """Positions that the module answers [mm]."""
+        module = self.module
+        return module.fields_of(module.scaled(parts), parts)[module.outputs.index("position")]
 
     def _forget(self, parts: Parts, generator: np.random.Generator) -> Parts:
         """Leave out sensors, or activations, at random: so one network learns to answer from either."""

@@ -23,13 +23,29 @@ ELEMENTS: dict[int, Element] = {len(element.nodes): element for element in (HEX2
 
 @dataclass(frozen=True)
 class VolumeRatios:
-    """J over all integration points of all cases [-]: mean, standard deviation, least, largest, share turned over."""
+    """J over all integration points of all cases [-].
+
+    Parameters
+    ----------
+    mean, deviation, least, largest
+        Of J.
+    negative
+        Share of the points where tissue is turned over.
+    change
+        Mean of |J - 1|.
+    """
 
     mean: float
     deviation: float
     least: float
     largest: float
     negative: float
+    change: float
+
+    @property
+    def largest_change(self) -> float:
+        """Largest |J - 1|."""
+        return max(abs(self.least - 1), abs(self.largest - 1))
 
 
 def element_of(body: Body) -> Element:
@@ -53,6 +69,7 @@ def volume_ratios(body: Body, positions: Float[np.ndarray, "cases nodes 3"]) -> 
         float(ratios.min()),
         float(ratios.max()),
         float((ratios <= 0).mean()),
+        float(np.abs(ratios - 1).mean()),
     )
 
 
