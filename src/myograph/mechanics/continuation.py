@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from myograph.errors import NotConvergedError, SolvePoint
-from myograph.mechanics.newton import NewtonResult, newton
+from myograph.mechanics.newton import NewtonResult, newton, smallest_volume_ratio
 from myograph.mechanics.predictor import extrapolated, flexion_rate
 from myograph.mechanics.problem import MuscleProblem
 from myograph.mechanics.soundness import depths_in_obstacles
@@ -21,6 +21,10 @@ LARGEST_TURN = radians(20.0)
 SMALLEST_SHARE = 1 / 128
 DEEPEST = 1.0
 """Depth [mm] in a bone from which on a muscle has passed into it instead of leaning on it."""
+_FIRST_SHARES = (1 / 8, 1 / 16, 1 / 32)
+"""First steps on the way to rest, as shares of it."""
+_CRUSHED = 0.1
+"""Smallest J at rest, below which an element counts as crushed."""
 _QUICK = 4
 """Newton steps up to which a load step was easy and the next may be three times as long."""
 
@@ -70,8 +74,18 @@ def unloaded(problem: MuscleProblem) -> Solved:
 
 
 def at_rest(problem: MuscleProblem) -> Solved:
-    """The muscle in the reference pose with its full pre-stretch, not activated."""
-    return reach(problem, unloaded(problem), Controls(1.0, 0.0, 0.0), first_share=1 / 8)
+    """The muscle in the reference pose with its full pre-stretch, not activated.
+
+    A step too long can crush an element into another minimum of the energy. Where one is all but crushed, shorter
+    first steps are tried; if it always is, the state of least energy is the answer.
+    """
+    found = []
+    for first_share in _FIRST_SHARES:
+        state = reach(problem, unloaded(problem), Controls(1.0, 0.0, 0.0), first_share)
+        if smallest_volume_ratio(problem, state.vector) > _CRUSHED:
+            return state
+        found.append((problem.energy(state.vector), state))
+    return min(found, key=lambda tried: tried[0])[1]
 
 
 def reach(
