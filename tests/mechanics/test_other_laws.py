@@ -56,6 +56,7 @@ def _active_stress(belly, prestretch):
     return slope(belly.active, np.array([0.92 * prestretch]))[0]
 
 
+@pytest.mark.exhaustive
 @pytest.mark.filterwarnings("ignore:overflow")  # of guccione's exponential, in a trial step that is cut back
 @pytest.mark.parametrize("name", BELLIES)
 def test_activation_adds_as_much_moment_to_a_belly_of_another_law_as_its_stress_promises(name, built_in):
@@ -68,6 +69,7 @@ def test_activation_adds_as_much_moment_to_a_belly_of_another_law_as_its_stress_
     assert 0 < rest < built_in[0]
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize(
     ("tendon", "bulk"),
     [
