@@ -97,7 +97,7 @@ def test_a_pattern_holds_the_sum_of_element_matrices_and_takes_in_others(block):
     pattern.fill(np.ones(block.mesh.ne * square**2))
     ones = np.ones(block.space.ndof)
     together = _times(pattern.matrix, ones)
-    numbers, counts = np.unique(block.elements.all_numbers(), return_counts=True)
+    numbers, counts = np.unique(block.elements.all_numbers, return_counts=True)
     assert together[numbers] == pytest.approx(counts * square)
     face = ngs.BilinearForm(block.space)
     (u, _), (v, _) = block.space.TnT()

@@ -5,12 +5,13 @@ r"""Energy, residual and tangent of a body of mixed elements from an energy dens
                K_ia,c = Σ_q w ∂P_ij/∂p ∂_j N_a M_c,   K_cd = Σ_q w ∂²W/∂p² M_c M_d
 
 P and A come from exact derivatives of W over the invariants (materials/jets.py, materials/stress.py). All points of a
-block of elements are worked on together, and what is multiplied are matrices: three to five times as fast as NGSolve's
-differentiation of the same energy, which tests hold it against.
+block of elements are worked on together, and what is multiplied are matrices: some three times as fast as NGSolve's
+differentiation of the same energy, interpreted, which tests hold it against.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 
 import ngsolve as ngs
 import numpy as np
@@ -41,10 +42,11 @@ class Assembly:
     elements: Elements
     fibre: Float[np.ndarray, "3 points"]
     density: Density
-    pattern: Pattern = field(init=False)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "pattern", Pattern(self.elements))
+    @cached_property
+    def pattern(self) -> Pattern:
+        """Where the entries of its element matrices go."""
+        return Pattern(self.elements)
 
     @property
     def matrix(self) -> ngs.BaseMatrix:
@@ -70,8 +72,9 @@ class Assembly:
             slope = self._weights(block) * density.first[PRESSURE]
             volumes = slope.reshape(cells, quad) @ elements.shapes
             parts.append(np.concatenate([forces.reshape(cells, 3 * functions), volumes], axis=1))
-        numbers = elements.all_numbers()
-        return np.bincount(numbers.ravel(), weights=np.concatenate(parts).ravel(), minlength=elements.unknowns)
+        return np.bincount(
+            elements.all_numbers.ravel(), weights=np.concatenate(parts).ravel(), minlength=elements.unknowns
+        )
 
     def tangent(self, vector: Float[np.ndarray, " unknowns"]) -> None:
         """Fill the matrix with the second derivative of the energy."""

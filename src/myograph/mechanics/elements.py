@@ -6,12 +6,13 @@ Unknowns are those of NGSolve's spaces: displacement of order 2, one component a
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import ngsolve as ngs
 import numpy as np
 from jaxtyping import Float, Int
 
-_BLOCK = 1728
+_BLOCK = 3456
 """Integration points that are worked on at once: few enough to stay in the processor's cache."""
 
 
@@ -78,6 +79,7 @@ class Elements:
         """Pressure [MPa] at the integration points of a block."""
         return (vector[3 * self.size + self.pressure_numbers[block]] @ self.shapes.T).ravel()
 
+    @cached_property
     def all_numbers(self) -> Int[np.ndarray, "cells element_unknowns"]:
         """Numbers of all unknowns of every element: x, y, z components, then pressure."""
         components = [self.numbers + k * self.size for k in range(3)]

@@ -24,7 +24,7 @@ class Pattern:
     """Where the entries of element matrices go."""
 
     def __init__(self, elements: Elements) -> None:
-        numbers, size = elements.all_numbers(), elements.unknowns
+        numbers, size = elements.all_numbers, elements.unknowns
         keys = numbers[:, :, None] * size + numbers[:, None, :]
         places, where = np.unique(_as_multiplied(keys, elements), return_inverse=True)
         self._size, self._keys = size, places

@@ -69,5 +69,9 @@ class MuscleMesh:
 
     def volume_ratios(self, positions: Float[np.ndarray, "nodes 3"]) -> Float[np.ndarray, "cells quad"]:
         """J, present over reference volume, at the integration points, with the nodes at the given positions."""
-        now = self.element.determinants(positions, self.cells, self.element.places)
-        return now / self.element.determinants(self.points, self.cells, self.element.places)
+        return self.element.determinants(positions, self.cells, self.element.places) / self._determinants
+
+    @cached_property
+    def _determinants(self) -> Float[np.ndarray, "cells quad"]:
+        """Of the map from local coordinates to the reference body, at the integration points [mm³]."""
+        return self.element.determinants(self.points, self.cells, self.element.places)

@@ -1,11 +1,10 @@
-"""Volumes of predicted shapes, and fields between the nodes."""
+"""Volumes of predicted shapes."""
 
 import numpy as np
 import pytest
 
 from myograph.ensemble.spec import Body
 from myograph.errors import InputError
-from myograph.learning.modes.anywhere import between
 from myograph.learning.modes.volume import fixed_nodes, volume_ratios
 from myograph.mesh.hexahedra import HEX27
 from myograph.mesh.tetrahedra import TET10
@@ -57,18 +56,3 @@ def test_nodes_that_never_move_are_the_fixed_ones():
     positions[1, 2] = [0, 0, 0.1]
     positions[2, 3] = [0, 5e-4, 0]
     assert fixed_nodes(positions).tolist() == [0, 1, 3]
-
-
-@pytest.mark.parametrize("element", [HEX27, TET10])
-def test_between_nodes_a_linear_field_is_exact_and_at_nodes_any_field(element):
-    body = bent(element)
-    inner = np.random.default_rng(0).dirichlet(np.ones(4), size=6) @ element.nodes[list(element.corners[:4])]
-    points = element.values(inner * 0.9 + 0.1 * element.nodes.mean(axis=0)) @ body.reference
-    assert np.allclose(between(body, points).carry(body.reference[None])[0], points, atol=1e-8)
-    values = np.random.default_rng(1).normal(size=(2, len(body.reference)))
-    assert np.allclose(between(body, body.reference).carry(values), values, atol=1e-6)
-
-
-def test_a_point_outside_of_the_body_is_refused():
-    with pytest.raises(InputError, match="outside of it"):
-        between(bent(HEX27), np.array([[50.0, 0, 0]]))

@@ -14,11 +14,9 @@ from myograph.inference.loaded import load
 from myograph.inference.model_file import WEIGHTS
 from myograph.inference.shipped import models_folder
 from myograph.learning.gen.rebuild import rebuild
-from myograph.mesh.presets import preset_mesh
 from myograph.view.page import PageArm, filled_page, is_network, page_content, read_arm_models, read_network
 from myograph.view.page.network import packed_network
 from myograph.view.page.packing import Packer
-from myograph.view.page.placing import place_tissue
 from myograph.view.page.template import ENGINE, SCRIPTS, WITH_WORKER
 from tests.view.page.arm import make_arm, save_network
 from tests.view.page.test_content import unpacked
@@ -38,41 +36,6 @@ def saved(models, tmp_path_factory):
     folder = tmp_path_factory.mktemp("network") / "mean"
     save_network(folder, models)
     return folder
-
-
-def moved(points):
-    """A smooth map of space."""
-    x, y, z = points.T
-    return np.stack([x + 0.01 * y * z, y - 0.2 * x, 1.3 * z + 0.002 * x * x], axis=1)
-
-
-@pytest.mark.parametrize("preset", ["tiny", "quick"])
-def test_sensors_of_one_mesh_are_found_in_another(preset):
-    finer = preset_mesh(built_in_arm(), "biceps", "quick")
-    mesh = preset_mesh(built_in_arm(), "biceps", preset)
-    inner = np.setdiff1d(np.arange(len(finer.points)), finer.skin)[::60]
-    weights = place_tissue(finer.points[inner], mesh.points, mesh.cells)
-    np.testing.assert_allclose(weights.sum(axis=1), 1, atol=1e-9)
-    np.testing.assert_allclose(weights @ mesh.points, finer.points[inner], atol=1e-6)
-    straight = 1.1 * mesh.points @ np.array([[1, 0.2, 0], [0, 1, 0.3], [0, 0, 1]]) + 5
-    np.testing.assert_allclose(
-        weights @ straight, 1.1 * finer.points[inner] @ np.array([[1, 0.2, 0], [0, 1, 0.3], [0, 0, 1]]) + 5, atol=1e-6
-    )
-
-
-def test_a_node_is_itself():
-    mesh = preset_mesh(built_in_arm(), "biceps", "tiny")
-    nodes = np.array([0, 17, len(mesh.points) - 1])
-    weights = place_tissue(mesh.points[nodes], mesh.points, mesh.cells)
-    np.testing.assert_allclose(weights, np.eye(len(mesh.points))[nodes], atol=1e-6)
-
-
-def test_places_outside_and_unknown_elements_are_refused():
-    mesh = preset_mesh(built_in_arm(), "biceps", "tiny")
-    with pytest.raises(InputError, match="expected places in the body"):
-        place_tissue(mesh.points[:1] + 100.0, mesh.points, mesh.cells)
-    with pytest.raises(InputError, match="expected elements of 27 or 10 nodes, got 8"):
-        place_tissue(mesh.points[:1], mesh.points, mesh.cells[:, :8])
 
 
 def test_it_answers_what_the_saved_model_answers(models, saved):

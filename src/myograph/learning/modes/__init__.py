@@ -14,6 +14,5 @@ own activation. Hence
     learner     fits it: seconds of linear algebra, no gradient steps over nodes
     arm         all muscles with one network for the angle
     ridge       amounts of the modes straight from sensors, by ridge least squares
-    anywhere    between the nodes, by the elements' own polynomials
     volume      det F of positions, and whether the ends stay where they belong
 """

@@ -5,7 +5,7 @@ r"""Neural modes as one torch module: parts of a question go in, fields, deviati
     field = mean + Φ c(x, u),    deviation² = |∂field/∂(x, u) L|² + misfit²
 
 Places are found in double precision, for a residual of micrometres is the difference of hundreds of millimetres; fields
-are made in single. Everything is at the nodes: `myograph.learning.modes.anywhere` carries it to points between them.
+are made in single. Everything is at the nodes: `myograph.mesh.between` carries it to points between them.
 """
 
 import torch

@@ -13,12 +13,7 @@ from jaxtyping import Float, Int
 
 from myograph.ensemble.spec import Body
 from myograph.errors import InputError
-from myograph.mesh.element import Element
-from myograph.mesh.hexahedra import HEX27
-from myograph.mesh.tetrahedra import TET10
-
-ELEMENTS: dict[int, Element] = {len(element.nodes): element for element in (HEX27, TET10)}
-"""Number of nodes -> element."""
+from myograph.mesh.kinds import element_of
 
 
 @dataclass(frozen=True)
@@ -48,17 +43,9 @@ class VolumeRatios:
         return max(abs(self.least - 1), abs(self.largest - 1))
 
 
-def element_of(body: Body) -> Element:
-    """The element that the body is made of; raises InputError where that is none known."""
-    count = body.cells.shape[1] if len(body.cells) else 0
-    if count not in ELEMENTS:
-        raise InputError(f"elements: expected {' or '.join(map(str, ELEMENTS))} nodes each, got {count}")
-    return ELEMENTS[count]
-
-
 def volume_ratios(body: Body, positions: Float[np.ndarray, "cases nodes 3"]) -> VolumeRatios:
     """J of positions of all nodes [mm]; raises InputError for another number of nodes, or elements not known."""
-    element = element_of(body)
+    element = element_of(body.cells)
     if positions.shape[1:] != body.reference.shape:
         raise InputError(f"positions: expected {len(body.reference)} nodes in each case, got {positions.shape[1:]}")
     before = element.determinants(body.reference, body.cells, element.places)

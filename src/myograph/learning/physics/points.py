@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from myograph.ensemble.spec import Body
-from myograph.learning.modes.volume import element_of
+from myograph.mesh.kinds import element_of
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Points:
 
 def random_points(body: Body, generator: np.random.Generator, count: int) -> Points:
     """So many integration points at random; raises InputError for a body without known elements."""
-    element = element_of(body)
+    element = element_of(body.cells)
     nodes = body.cells[generator.integers(len(body.cells), size=count)]
     local = element.places[generator.integers(len(element.places), size=count)]
     slopes = element.gradients(local)

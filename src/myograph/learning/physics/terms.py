@@ -21,9 +21,10 @@ from myograph.ensemble.pairs.protocols import PairSet
 from myograph.ensemble.pairs.question import Question
 from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.errors import InputError
-from myograph.learning.modes.volume import element_of, fixed_nodes
+from myograph.learning.modes.volume import fixed_nodes
 from myograph.learning.physics.config import Physics
 from myograph.learning.physics.points import random_points
+from myograph.mesh.kinds import element_of
 
 PLACES, INITIAL = "query_places", "query_position_initial"
 
@@ -108,7 +109,7 @@ def physics_terms(config: Physics, sampler: PairSampler, pairs: PairSet) -> Phys
     none = PhysicsTerms(config, sampler, np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
     if config.volume:
         try:
-            element_of(sampler.cases.body)
+            element_of(sampler.cases.body.cells)
         except InputError as problem:
             raise InputError(f"physics: volumes are those of elements: {problem}; set volume to 0") from None
     if not config.clamped:

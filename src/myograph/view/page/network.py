@@ -24,8 +24,8 @@ from myograph.inference.low_rank.reading import METHOD
 from myograph.inference.model_file import MODEL_FILE, NETWORK, WEIGHTS, read_file, read_model_file
 from myograph.inference.session import run_session
 from myograph.inference.verdict import MEASURED, WIDENED
+from myograph.mesh.between import between
 from myograph.view.page.packing import Packer
-from myograph.view.page.placing import place_tissue
 from myograph.view.page.source import ArmModels
 
 STILL = ("sensor_places", "sensor_position_initial", "query_places", "query_position_initial")
@@ -107,7 +107,7 @@ def read_network(folder: Path, arm: ArmModels) -> PageNetwork:
     rest = muscle.at(np.array(trained.activation_low), trained.hand_load[0])["position"]
     places = model.body.body.reference[list(told.signature.sensors)].astype(np.float64)
     try:
-        sensors = place_tissue(places, muscle.reference, muscle.cells)
+        sensors = between(muscle.reference, muscle.cells, places).matrix(len(muscle.reference))
     except InputError as problem:
         raise InputError(f"{folder}: its sensors in the {told.muscle} of {arm.name}: {problem}") from None
     data = read_file(folder, NETWORK, told.files[NETWORK])

@@ -12,10 +12,9 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial import KDTree
 
-from myograph.ensemble.spec import Body
 from myograph.errors import InputError
-from myograph.learning.modes.volume import element_of
 from myograph.mesh.element import Element
+from myograph.mesh.kinds import element_of
 
 NEWTON_STEPS, TRIED = 12, 12
 REACH = 0.1
@@ -33,26 +32,36 @@ class Between:
         """A field at the points, of its values at all nodes."""
         return np.einsum("pe,bpe...->bp...", self.weights, values[:, self.nodes])
 
+    def matrix(self, nodes: int) -> Float[np.ndarray, "points nodes"]:
+        """The weights of all so many nodes of the body."""
+        whole = np.zeros((len(self.nodes), nodes))
+        np.put_along_axis(whole, self.nodes, self.weights, axis=1)
+        return whole
 
-def between(body: Body, points: Float[np.ndarray, "points 3"]) -> Between:
-    """The elements around these points of the reference body [mm].
+
+def between(
+    reference: Float[np.ndarray, "nodes 3"],
+    cells: Int[np.ndarray, "cells element_nodes"],
+    points: Float[np.ndarray, "points 3"],
+) -> Between:
+    """The elements around these points [mm] of a body, whose nodes and elements are given.
 
     Raises InputError for a point outside of the body, and for elements that are not known.
     """
-    element = element_of(body)
-    centres = body.reference[body.cells].mean(axis=1)
+    element = element_of(cells)
+    centres = reference[cells].mean(axis=1)
     tried = KDTree(centres).query(points, k=min(TRIED, len(centres)))[1].reshape(len(points), -1)
     best = np.full(len(points), np.inf)
     cell, local = np.zeros(len(points), dtype=np.int64), np.zeros((len(points), 3))
     for candidate in tried.T:
-        found = _local(element, body.reference[body.cells[candidate]], points)
+        found = _local(element, reference[cells[candidate]], points)
         outside = _outside(element, found)
         better = outside < best
         best[better], cell[better], local[better] = outside[better], candidate[better], found[better]
     if len(points) and not best.max() <= REACH:
         worst = int(best.argmax())
         raise InputError(f"points: expected places in the body, got {points[worst].tolist()} mm outside of it")
-    return Between(body.cells[cell], element.values(local))
+    return Between(cells[cell], element.values(local))
 
 
 def _local(
