@@ -1,6 +1,6 @@
 """Kill the runner of an ensemble, or a simulator of it, again and again, and see that the store comes out the same.
 
-    python benchmarks/kill_ensemble.py [--kills 100] [--cases 2000] [--seed 0] [--remembers] [--json]
+    python -m benchmarks.kill_ensemble [--kills 100] [--cases 2000] [--seed 0] [--remembers] [--json]
 
 Every kill is a kill -9, every third of the runner, the others of one of its simulators' processes; a dead
 runner is started again. At last the store is compared, byte by byte, with one that was left in peace.

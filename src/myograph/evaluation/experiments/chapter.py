@@ -69,8 +69,8 @@ SECTIONS: dict[str, About] = {
         "with dimension 8 and a layer dimension of 16'.",
         (*POSITION, *COST),
         "Names are the hidden layers and the latent space. The thesis's text does not give the legend of its figure"
-        " 6.4 in full; these five follow its words. LayerNorm over one number is a constant: a network with latent "
-        "1 cannot see what the sensors say.",
+        " 6.4 in full; five follow its words, '16, latent 8' is the least that its conclusion allows. LayerNorm over "
+        "one number is a constant: a network with latent 1 cannot see what the sensors say.",
     ),
     "meshes": About(
         "Mesh size",
