@@ -157,6 +157,24 @@ def test_a_muscle_that_folds_at_rest_is_turned_contracted_and_relaxed_there(anco
     assert way == [(1.0, 1.0), (1.0, 0.0)]
 
 
+@pytest.mark.parametrize("active", [(), (1.0,)])
+def test_a_turn_at_rest_that_fails_from_the_nearest_state_is_tried_from_the_other_side(anconeus, monkeypatch, active):
+    original, blocked = muscle_module.reach, np.radians(10.0)
+
+    def one_sided(problem, start, target, most=None):
+        if start.controls.flexion > blocked and target.flexion < start.controls.flexion:
+            raise NotConvergedError("it folds the other way")
+        return original(problem, start, target, most=most)
+
+    walk = Walk(anconeus)
+    dict(walk.states(points_of([65.0, 75.0], (0.0, *active))))
+    reference = np.degrees(anconeus.arm.reference_angle)
+    assert reference + np.degrees(blocked) < 72.0
+    monkeypatch.setattr(muscle_module, "reach", one_sided)
+    state = dict(walk.states(points_of([72.0], (0.0,))))[0]
+    assert isinstance(state, MuscleState)
+
+
 def test_a_way_ends_where_its_tangents_are_used_up(anconeus, monkeypatch):
     resting = anconeus.at_rest()
     monkeypatch.setattr("myograph.mechanics.newton.MOST_STEPS", 0)

@@ -7,6 +7,7 @@ it is turned at its largest known activation, and relaxed afterwards.
 """
 
 from collections.abc import Iterable, Iterator
+from itertools import islice
 
 import numpy as np
 from jaxtyping import Float
@@ -19,6 +20,8 @@ _SAME = 9
 """Decimals of an angle [rad] up to which two are one."""
 _PATIENCE = 50
 """Tangents after which a turn at rest is given up."""
+_STARTS = 3
+"""From how many resting states a turn is tried at last: a slack muscle folds one way from here, another from there."""
 
 
 class Walk:
@@ -69,18 +72,21 @@ class Walk:
         return ((float(points[columns[angle][0], 0]), columns[angle]) for angle in (*up, *down))
 
     def _sweep(self, angle: float) -> NotConvergedError | None:
-        """The muscle at rest at an angle, from the nearest one at rest; the failure, if it is one."""
+        """The muscle at rest at an angle, from the nearest ones at rest; the failure, if it is one."""
         column = self._column(angle)
         if 0.0 in column:
             return None
-        resting = next(states[0.0] for states in self._nearest(angle) if 0.0 in states)
+        resting = list(islice((states[0.0] for states in self._nearest(angle) if 0.0 in states), _STARTS))
         taut = next((states[max(states)] for states in self._nearest(angle) if max(states, default=0.0) > 0), None)
-        result = self._first(0.0, angle, [resting], None if taut is None else _PATIENCE)
-        if taut is not None and isinstance(result, NotConvergedError):
-            result = self._relaxed(angle, taut)
-        if taut is not None and isinstance(result, NotConvergedError):
-            result = self._first(0.0, angle, [resting])
+        result = None if taut is None else self._quickly(angle, resting[0], taut)
+        if result is None or isinstance(result, NotConvergedError):
+            result = self._first(0.0, angle, resting)
         return result if isinstance(result, NotConvergedError) else None
+
+    def _quickly(self, angle: float, resting: Solved, taut: Solved) -> Solved | NotConvergedError:
+        """The muscle at rest at an angle: turned at rest if that is cheap, or else contracted."""
+        result = self._first(0.0, angle, [resting], _PATIENCE)
+        return self._relaxed(angle, taut) if isinstance(result, NotConvergedError) else result
 
     def _relaxed(self, angle: float, taut: Solved) -> Solved | NotConvergedError:
         """The muscle at rest at an angle, from a contracted one that is turned there first."""
