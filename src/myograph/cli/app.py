@@ -1,11 +1,13 @@
 """The command `myograph`: its verbs, and what becomes of errors.
 
 Exit codes: 0 done, 2 the caller's mistake, 3 a method failed, 130 interrupted. An error is one line on standard
-error, or one line per wrong key of a file; never a traceback for what people can mend.
+error, or one line per wrong key of a file; never a traceback for what people can mend. So is a warning, once.
 """
 
 import os
 import sys
+import warnings
+from functools import cache
 from typing import Annotated
 
 import typer
@@ -45,7 +47,9 @@ def _root(
 def main() -> None:
     """Run the command line and leave with its exit code."""
     try:
-        code = app(standalone_mode=False)
+        with warnings.catch_warnings():
+            warnings.showwarning = _warn
+            code = app(standalone_mode=False)
     except MyographError as error:
         _say(str(error))
         sys.exit(error.exit_code)
@@ -64,6 +68,16 @@ def _leave_interrupted() -> None:
     _say("interrupted; nothing is half-written")
     sys.stdout.flush()
     os._exit(INTERRUPTED)
+
+
+def _warn(message: Warning | str, *_place: object) -> None:
+    """What stands in the place of Python's own lines about a warning, which name a line of code."""
+    _say_once(f"warning: {message}")
+
+
+@cache
+def _say_once(message: str) -> None:
+    _say(message)
 
 
 def _say(message: str) -> None:

@@ -34,6 +34,16 @@ def test_a_section_shows_its_table_its_figures_and_what_the_thesis_found():
     assert "A <b>." in parsed.texts
 
 
+def test_what_the_thesis_concludes_is_judged_first():
+    names = ("16, latent 1", "32-32, latent 32")
+    rows = [{"name": name, "protocol": "thesis", "mean_mm": 10.0 / (1 + k)} for k, name in enumerate(names)]
+    page = chapter_page("Title", {"6.2.4": made(rows=rows)}, {})
+    evidence = "10 mm (16, latent 1), 5 mm (32-32, latent 32): 2 times; holds for at least 1.1 times"
+    assert ["A latent space of 1 is worse", "6.2.4", "holds", evidence] in Page(page).rows
+    assert page.index("What of the thesis holds here") < page.index(SECTIONS["6.2.4"].heading)
+    assert "What of the thesis holds here" not in chapter_page("Title", {"6.2.2": made()}, {})
+
+
 def test_the_page_needs_nothing_outside_itself(tmp_path):
     write_chapter("Title", {name: made() for name in SECTIONS}, {"command": "x"}, tmp_path / "report.html")
     page = (tmp_path / "report.html").read_text()

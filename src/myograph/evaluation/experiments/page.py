@@ -6,6 +6,7 @@ from html import escape
 from pathlib import Path
 
 from myograph.evaluation.experiments.chapter import SECTIONS
+from myograph.evaluation.experiments.claims import TOLD, Verdict, judged
 from myograph.evaluation.experiments.columns import Column, Row, cells, known
 from myograph.evaluation.page import duration, figure_html, framed, terms_html
 from myograph.evaluation.report import Figure
@@ -43,6 +44,8 @@ def write_chapter(title: str, made: Mapping[str, Made], provenance: Mapping[str,
 def chapter_page(title: str, made: Mapping[str, Made], provenance: Mapping[str, str]) -> str:
     """HTML of all sections that were made, in the order of the chapter."""
     parts = [_part("6.1 Description", _description())]
+    if verdicts := judged({name: one.rows for name, one in made.items()}):
+        parts.append(_part("What of the thesis holds here", _verdicts(verdicts)))
     parts += [_part(about.heading, _section(name, made[name])) for name, about in SECTIONS.items() if name in made]
     parts.append(_part("How to do it again", terms_html(provenance)))
     return framed(title, SUMMARY, "\n".join(parts))
@@ -54,6 +57,19 @@ def _description() -> str:
         "nodes whose place is known; all others are asked. Every table has three protocols:"
     )
     return f"<p>{told}</p>\n{terms_html(PROTOCOLS, 'said')}"
+
+
+def _verdicts(verdicts: Sequence[Verdict]) -> str:
+    lines = "\n".join(
+        f'<tr><th scope="row">{escape(one.claim.said)}</th><td>{escape(one.claim.section)}</td>'
+        f"<td>{escape(one.verdict)}</td><td>{escape(one.evidence)}</td></tr>"
+        for one in verdicts
+    )
+    head = "".join(f'<th scope="col">{name}</th>' for name in ("the thesis", "section", "here", "evidence"))
+    table = (
+        f'<div class="wide told"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{lines}\n</tbody>\n</table></div>'
+    )
+    return f"<p>{escape(TOLD)}</p>\n{table}"
 
 
 def _section(name: str, made: Made) -> str:

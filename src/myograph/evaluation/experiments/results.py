@@ -5,6 +5,7 @@ from typing import Any
 
 from myograph.errors import InputError
 from myograph.evaluation.experiments.chapter import SECTIONS, About
+from myograph.evaluation.experiments.claims import TOLD, judged
 from myograph.evaluation.experiments.columns import Row, cells, known
 from myograph.evaluation.page import duration
 
@@ -37,6 +38,7 @@ def results_page(results: Results) -> str:
     absent = [name for name in SECTIONS if name not in results["sections"]]
     if absent:
         parts.append(f"Sections that were not made in this run: {', '.join(absent)}.\n")
+    parts += _verdicts({name: found["rows"] for name, found in results["sections"].items()})
     for name, about in SECTIONS.items():
         if name in results["sections"]:
             found = results["sections"][name]
@@ -45,6 +47,12 @@ def results_page(results: Results) -> str:
         "## How to do it again\n\n" + "\n".join(f"- {k}: {v}" for k, v in results["provenance"].items()) + "\n"
     )
     return "\n".join(parts)
+
+
+def _verdicts(sections: Mapping[str, list[Row]]) -> list[str]:
+    lines = [f"| {v.claim.said} | {v.claim.section} | {v.verdict} | {v.evidence} |" for v in judged(sections)]
+    head = "| the thesis | section | here | evidence |\n| --- | --- | --- | --- |\n"
+    return ["## What of the thesis holds here\n\n" + TOLD + "\n\n" + head + "\n".join(lines) + "\n"] if lines else []
 
 
 def _section(about: About, found: Mapping[str, Any]) -> str:
