@@ -1,27 +1,9 @@
-"""Files appear whole or not at all; work goes on side by side."""
-
-import os
-import subprocess
-import sys
-import time
-from pathlib import Path
+"""Files appear whole or not at all."""
 
 import pytest
 
 from myograph.errors import InputError
 from myograph.files import write_whole, write_whole_folder
-from myograph.processes import side_by_side
-
-
-def _square(number, tell):
-    tell(number)
-    return number**2, os.getpid()
-
-
-def _fail(number, tell):
-    if number == 2:
-        raise InputError("two is too many")
-    return number
 
 
 def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path):
@@ -86,59 +68,3 @@ def test_a_failed_folder_leaves_the_old_one_even_where_the_last_rename_fails(tmp
         write_whole_folder(tmp_path / "model", lambda folder: None)
     assert (tmp_path / "model" / "content").read_text() == "old"
     assert [p.name for p in tmp_path.iterdir()] == ["model"]
-
-
-def test_results_come_in_order_and_news_arrives():
-    heard = []
-    results = side_by_side(_square, [(3,), (1,), (2,)], heard.append)
-    assert [value for value, _ in results] == [9, 1, 4]
-    assert sorted(heard) == [1, 2, 3]
-    assert os.getpid() not in {pid for _, pid in results}
-
-
-def test_the_error_of_a_task_is_raised_here():
-    with pytest.raises(InputError, match="two is too many"):
-        side_by_side(_fail, [(1,), (2,), (3,)], print)
-
-
-def test_no_tasks_have_no_results():
-    assert side_by_side(_square, [], print) == []
-
-
-PARENT = """
-import time
-from myograph.processes import side_by_side
-from tests.test_files import _sleep
-
-if __name__ == "__main__":
-    side_by_side(_sleep, [(60.0,)], lambda pid: print(pid, flush=True))
-"""
-
-
-def _sleep(seconds, tell):
-    tell(os.getpid())
-    time.sleep(seconds)
-
-
-@pytest.mark.skipif(not Path("/proc").exists(), reason="looks at Linux's table of processes")
-def test_all_processes_end_when_their_parent_is_killed(tmp_path):
-    (tmp_path / "parent.py").write_text(PARENT)
-    root = Path(__file__).parents[1]
-    environment = {**os.environ, "PYTHONPATH": str(root)}
-    command = [sys.executable, str(tmp_path / "parent.py")]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as parent:
-        worker = int(parent.stdout.readline())
-        children = _children(parent.pid)
-        assert worker in children
-        parent.kill()
-    for _ in range(100):
-        left = [child for child in children if Path(f"/proc/{child}").exists()]
-        if not left:
-            return
-        time.sleep(0.1)
-    raise AssertionError(f"{len(left)} processes outlived their parent by ten seconds")
-
-
-def _children(parent):
-    stats = [path.read_text() for path in Path("/proc").glob("[0-9]*/stat")]
-    return [int(stat.split()[0]) for stat in stats if int(stat.rpartition(")")[2].split()[1]) == parent]

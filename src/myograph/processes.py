@@ -34,12 +34,20 @@ def side_by_side(work: Callable[..., Result], tasks: Sequence[tuple], on_news: N
         try:
             futures = [pool.submit(_work, work, task, news) for task in tasks]
             _follow(futures, news, on_news)
-            return [future.result() for future in futures]
-        finally:
-            processes = list((pool._processes or {}).values())
-            pool.shutdown(wait=False, cancel_futures=True)
-            for process in processes:
-                process.terminate()
+            results = [future.result() for future in futures]
+        except BaseException:
+            _end(pool)
+            raise
+        pool.shutdown()
+        return results
+
+
+def _end(pool: ProcessPoolExecutor) -> None:
+    """End the pool's processes now, whatever they are at; one that ends by itself clears up what it took first."""
+    processes = list((pool._processes or {}).values())
+    pool.shutdown(wait=False, cancel_futures=True)
+    for process in processes:
+        process.terminate()
 
 
 def _work(work: Callable[..., Result], task: tuple, news: Any) -> Result:
