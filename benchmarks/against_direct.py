@@ -22,6 +22,7 @@ import torch
 from baselines import METHODS, learner_of
 from rich.console import Console
 from rich.table import Table
+from threadpoolctl import threadpool_limits
 
 from myograph.ensemble.muscle_cases import MuscleCases
 from myograph.ensemble.pairs.predictor import Predictor
@@ -54,6 +55,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Fit, judge, print."""
     asked = _arguments(arguments)
     torch.set_num_threads(1)
+    threadpool_limits(1)
     cases, truth = (read_muscle(store, asked.muscle) for store in (asked.store, asked.truth))
     _check(cases, truth)
     found: dict[str, dict[str, list[Figures]]] = {}

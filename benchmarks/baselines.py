@@ -20,6 +20,7 @@ import numpy as np
 import torch
 from rich.console import Console
 from rich.table import Table
+from threadpoolctl import threadpool_limits
 
 from myograph.ensemble.muscle_cases import MuscleCases
 from myograph.ensemble.pairs.predictor import Learner
@@ -111,6 +112,7 @@ def learner_of(method: str, seed: int, seconds: float) -> Learner:
 
 def _measure(cases: MuscleCases, method: str, protocol: Protocol, seed: int, options: Options) -> Row:
     torch.set_num_threads(1)
+    threadpool_limits(1)
     sampler = PairSampler(cases, random_sensors(cases.nodes), options.convention, asked=ASKED)
     split = split_pairs(cases, protocol, seed)
     cases.values("position", np.unique(split.train.target))

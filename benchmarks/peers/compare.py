@@ -21,6 +21,7 @@ import numpy as np
 import torch
 from export_cases import arrays_of, cases_of
 from run_peer import errors
+from threadpoolctl import threadpool_limits
 
 import myograph
 from myograph.ensemble.muscle_cases import MuscleCases
@@ -201,6 +202,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path)
     asked = parser.parse_args()
     torch.set_num_threads(1)
+    threadpool_limits(1)
     cases = cases_of(asked.store, asked.support)
     about = {"seconds": asked.seconds, "seeds": asked.seeds, "data": cases.checksum}
     rows = kept(asked.out, about)

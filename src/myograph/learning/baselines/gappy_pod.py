@@ -24,6 +24,7 @@ from myograph.inference.signature import Signature
 from myograph.learning.baselines.gappy_module import GappyPodModule, GappyPodShape
 from myograph.learning.baselines.pod import Pod, pod_of
 from myograph.learning.baselines.taught import taught_cases
+from myograph.learning.threads import on_one_thread
 from myograph.learning.torch_predictor import TorchPredictor
 
 COUNTS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
@@ -39,6 +40,7 @@ class GappyPod:
 
     name = "gappy_pod"
 
+    @on_one_thread
     def fit(self, sampler: PairSampler, split: Split, progress: Progress | None = None) -> TorchPredictor:
         """Modes of the training cases, their number and ε chosen for the sampler's sensors."""
         positions = sampler.cases.values("position", taught_cases(split))

@@ -25,6 +25,7 @@ from myograph.inference.signature import Signature
 from myograph.learning.baselines.gp_module import FieldProcess, PodGpConfig, PodGpModule, PodGpShape
 from myograph.learning.baselines.pod import Pod, pod_of
 from myograph.learning.baselines.taught import taught
+from myograph.learning.threads import on_one_thread
 from myograph.learning.torch_predictor import TorchPredictor
 
 LENGTHS, AMPLITUDES, NOISES = (0.05, 50.0), (1e-2, 1e4), (1e-8, 1e-1)
@@ -39,6 +40,7 @@ class PodGp:
     method: PodGpConfig = field(default_factory=PodGpConfig)
     name: str = "pod_gp"
 
+    @on_one_thread
     def fit(self, sampler: PairSampler, split: Split, progress: Progress | None = None) -> TorchPredictor:
         """Modes and processes of the target cases of the training pairs."""
         told = taught(sampler, split)

@@ -18,6 +18,7 @@ from myograph.learning.modes.marquardt import fit_network
 from myograph.learning.modes.module import SMALLEST, ModesModule
 from myograph.learning.modes.pod import Pod
 from myograph.learning.modes.surface import fit_surface
+from myograph.learning.threads import on_one_thread
 
 Values = Float[np.ndarray, "cases nodes components"]
 Place = Float[np.ndarray, "cases 2"]
@@ -44,6 +45,7 @@ def fit_field(name: str, values: Values, pod: Pod, place: Place, kept: torch.dty
     return field
 
 
+@on_one_thread
 def fit_angle(
     module: ModesModule,
     told: Float[np.ndarray, "cases inputs"],

@@ -18,6 +18,7 @@ from myograph.learning.modes.config import BuiltModes, ModesConfig
 from myograph.learning.modes.fitting import fit_angle, fit_field
 from myograph.learning.modes.module import KEPT, ModesModule
 from myograph.learning.modes.pod import Pod, proper_modes
+from myograph.learning.threads import on_one_thread
 from myograph.learning.torch_predictor import TorchPredictor
 
 LEAST_CASES = 6
@@ -41,6 +42,7 @@ class ModesLearner:
         fit_angle(module, *told, progress)
         return predictor(self.name, module, sampler)
 
+    @on_one_thread
     def modes(self, sampler: PairSampler, split: Split) -> tuple[ModesModule, Told]:
         """The module but for its networks, and what these are to be fitted to; raises as `fit` does."""
         cases, taught = sampler.cases, split.train.cases
