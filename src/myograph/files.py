@@ -6,7 +6,8 @@ An interrupt or a full disk leaves the old file as it was and nothing else.
 import os
 import shutil
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
@@ -48,6 +49,15 @@ def write_whole_folder(path: Path, write: Callable[[Path], object]) -> None:
         shutil.rmtree(aside, ignore_errors=True)
 
 
+@contextmanager
+def refusing(path: Path) -> Iterator[None]:
+    """What cannot be written at `path` within becomes an InputError: for what is not written whole, such as a log."""
+    try:
+        yield
+    except OSError as problem:
+        raise _refusal(path, problem) from None
+
+
 def _swap(path: Path, aside: Path) -> None:
     """Put the new folder in place; where that fails, put the old one back."""
     if path.exists():
@@ -61,7 +71,9 @@ def _swap(path: Path, aside: Path) -> None:
 
 
 def _refusal(path: Path, problem: OSError) -> InputError:
-    return InputError(f"{path}: cannot be written ({problem.strerror}); free some room or choose another folder")
+    return InputError(
+        f"{path}: cannot be written ({problem.strerror or problem}); free some room or choose another folder"
+    )
 
 
 def _umask() -> int:

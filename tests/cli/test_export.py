@@ -1,5 +1,6 @@
 """`myograph export`: every kind from the command line, and what is refused."""
 
+import importlib
 import json
 import shutil
 
@@ -14,7 +15,7 @@ from myograph.errors import InputError
 from myograph.inference.low_rank import read_low_rank_arm
 from tests.ensemble.filled import filled_store
 from tests.inference.low_rank.stand_in import save_arm
-from tests.inference.stand_in import save_linear
+from tests.inference.stand_in import FROM_ACTIVATION, FROM_SENSORS, network, save_linear, save_mean
 
 
 @pytest.fixture(scope="module")
@@ -105,6 +106,36 @@ def test_onnx_as_it_is_and_in_another_operator_set(call, models, tmp_path):
     assert (found["opset"], found["outputs"]) == (20, ["position", "von_mises"])
     with pytest.raises(InputError, match="can be written in, got 99"):
         call("onnx", tmp_path / "linear", "--opset", "99")
+
+
+@pytest.mark.parametrize(
+    ("save", "text"),
+    [
+        (save_linear, FROM_ACTIVATION.replace("1.0", "1.01")),
+        (save_mean, FROM_SENSORS.replace("Add(query_places,", "Sub(query_places,")),
+    ],
+    ids=["from activations", "from sensors"],
+)
+def test_a_converted_network_that_answers_otherwise_is_refused(call, tmp_path, monkeypatch, save, text):
+    save(tmp_path / "model")
+    verb = importlib.import_module("myograph.cli.export.onnx")
+    monkeypatch.setattr(verb, "_converted", lambda *_: network(text))
+    with pytest.raises(InputError, match="opset: expected the same 'position' as before within 1e-05, got another"):
+        call("onnx", tmp_path / "model", "--opset", "20")
+    assert not (tmp_path / "model.onnx").exists()
+
+
+def test_a_model_that_answers_from_sensors_is_converted(call, tmp_path):
+    pytest.importorskip("onnx")
+    save_mean(tmp_path / "mean")
+    assert json.loads(call("onnx", tmp_path / "mean", "--opset", "20", "--json"))["opset"] == 20
+
+
+def test_the_model_of_another_muscle_is_not_written_as_that_of_the_asked_one(call, tmp_path):
+    save_linear(tmp_path / "linear")
+    with pytest.raises(InputError, match="expected a model of triceps, got one of biceps; leave --muscle out"):
+        call("onnx", tmp_path / "linear", "--muscle", "triceps")
+    assert json.loads(call("onnx", tmp_path / "linear", "--muscle", "biceps", "--json"))["opset"] == 18
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """`myograph predict` and `myograph evaluate` on models whose errors are known by formula."""
 
+import csv
 import json
 import shutil
 
@@ -10,7 +11,8 @@ import typer
 from myograph.cli.evaluate import evaluate
 from myograph.cli.predict import predict
 from myograph.errors import InputError
-from myograph.inference.truth import write_truth
+from myograph.inference.held_out import factorial_checksum
+from myograph.inference.truth import read_truth, write_truth
 from tests.inference.stand_in import place, save_linear, save_mean, stand_in_cases
 
 ERROR = 0.75  # mm, in x at every node
@@ -90,6 +92,41 @@ def test_a_grid_for_paraview(call, tmp_path):
     np.testing.assert_allclose(points, place(np.array([[0, 0, 1.0, 0, 0]]))[0], atol=1e-4)
 
 
+def test_a_movement_may_come_back_to_where_it_was(call, tmp_path):
+    asked = tmp_path / "asked.csv"
+    asked.write_text(f"{COLUMNS}\n0,0,0,0,0\n0,0,1,0,0\n0,0,0,0,0\n")
+    cases = json.loads(call("predict", "--activations", asked, "--json"))["cases"]
+    assert len(cases) == 3
+    assert cases[0] == cases[2] != cases[1]
+
+
+def test_the_verdict_and_the_intervals_stand_in_every_kind_of_file(call, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    asked = tmp_path / "asked.csv"
+    asked.write_text(f"{COLUMNS},hand_load_n\n0,0,1,0,0,0\n1,0,0,0,1,30\n")
+    for kind in ("csv", "vtkhdf"):
+        call("predict", "--activations", asked, "--out", tmp_path / f"out.{kind}")
+    with (tmp_path / "out.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [row["inside"] for row in rows] == ["1"] * 40 + ["0"] * 40
+    with h5py.File(tmp_path / "out.vtkhdf") as file:
+        data = file["VTKHDF"]
+        assert data["FieldData/inside"][:, 0].tolist() == [1, 0]
+        assert data["FieldData/hand_load"][:, 0].tolist() == [0, 30]
+        assert set(data["PointData/position_half_width_90"][:].tolist()) == {0.25}
+
+
+def test_deviations_stand_in_a_grid_for_paraview(call, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    rest = place(np.zeros((1, 5)))[0]
+    rows = [f"3,{rest[3, 0]},{rest[3, 1]},{rest[3, 2]}", f"30,{rest[30, 0] + 4},{rest[30, 1]},{rest[30, 2]}"]
+    (tmp_path / "sensors.csv").write_text("node,x_mm,y_mm,z_mm\n" + "\n".join(rows) + "\n")
+    call("predict", "--sensors", tmp_path / "sensors.csv", "--out", tmp_path / "out.vtkhdf")
+    with h5py.File(tmp_path / "out.vtkhdf") as file:
+        np.testing.assert_allclose(file["VTKHDF/PointData/position_deviation"][:], 2.0, atol=1e-3)
+
+
+COLUMNS = "brachioradialis,brachialis,biceps,anconeus,triceps"
 MISTAKES = {
     (): "expected one of --activation and --activations, or --sensors",
     ("--activation", "0,0,1,0,0", "--activations", "a.csv"): "expected one of",
@@ -107,7 +144,6 @@ MISTAKES = {
     ("--activations", "foreign.csv"): "expected the columns",
     ("--sensors", "none.csv"): "not a readable CSV file",
 }
-COLUMNS = "brachioradialis,brachialis,biceps,anconeus,triceps"
 
 
 @pytest.mark.parametrize("words", MISTAKES)
@@ -163,6 +199,30 @@ def test_protocols_that_would_flatter_are_left_out(call, folder, tmp_path):
     assert set(found["protocols"]) == {"thesis", "off_grid"}
     assert "taught this model" in found["left_out"]["strict"]
     assert "strict: left out" in call("evaluate", tmp_path / "model")
+
+
+@pytest.mark.parametrize("change", ["order", "number"])
+def test_protocols_whose_held_out_cases_are_not_certain_are_left_out(call, folder, tmp_path, change):
+    """Another list of corners, and the seed of the split holds out others than the training did."""
+    chosen = np.arange(40)[::-1] if change == "order" else np.arange(1, 40)
+    write_truth(tmp_path / "other.npz", stand_in_cases(), chosen, ("position",))
+    found = json.loads(call("evaluate", folder / "linear", tmp_path / "other.npz", "--json"))
+    assert set(found["protocols"]) == {"off_grid"}
+    assert set(found["left_out"]) == {"thesis", "strict"}
+    assert "may have taught this model: expected the factorial cases of the training" in found["left_out"]["strict"]
+
+
+def test_a_model_says_which_list_its_training_was_split_from(call, folder, tmp_path):
+    backwards = np.arange(40)[::-1]
+    write_truth(tmp_path / "other.npz", stand_in_cases(), backwards, ("position",))
+    cases = read_truth(tmp_path / "other.npz")
+    for told in ({"factorial": factorial_checksum(cases)}, {"factorial": "another", "dataset": cases.checksum}):
+        origin = save_linear(tmp_path / "model").origin.model_copy(update=told)
+        save_linear(tmp_path / "model", origin=origin)
+        found = json.loads(call("evaluate", tmp_path / "model", tmp_path / "other.npz", "--json"))
+        assert set(found["protocols"]) == {"thesis", "strict", "off_grid"}
+        again = json.loads(call("evaluate", tmp_path / "model", folder / "truth" / "biceps.npz", "--json"))
+        assert set(again["protocols"]) == {"off_grid"}
 
 
 def test_cases_off_the_grid_are_enough(call, folder, tmp_path):

@@ -2,6 +2,7 @@
 
 import json
 from contextlib import contextmanager
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -163,6 +164,24 @@ def test_sensors_may_be_listed(place, monkeypatch):
         (GEN.replace("pairs", "sensors = 1000\npairs"), (), "expected between 1 and 152 sensors"),
         (GEN.replace("pairs", 'asked = ["colour"]\npairs'), (), "expected one of the fields .*got 'colour'"),
         (GEN, ("--device", "tpu"), "--device: expected one of auto, cpu, cuda, got 'tpu'"),
+        (
+            GEN.replace("[options]", '[options]\nskip = "affine"\nactivation_input = true'),
+            (),
+            "skip 'affine': expected",
+        ),
+        (GEN.replace("steps = 6", "steps = 6\nvalidation = 0.01"), (), "validation: expected cases for both training"),
+        (
+            GEN.replace("steps = 6", "steps = 6\npatience = 3"),
+            (),
+            "patience: .*got none; set 'validation', such as 0.1",
+        ),
+        (GEN.replace("pairs", 'asked = ["von_mises"]\npairs'), (), "expected one that asks for position"),
+        (GEN.replace("steps = 6", 'steps = 6\nprecision = "16-mixed"'), (), "precision: expected a GPU for '16-mixed'"),
+        (
+            FEED_FORWARD + "validation = 0.01\npatience = 3\n",
+            (),
+            "patience: expected cases to validate on, got none of",
+        ),
         (AFFINE + "[options]\nsize = 2", (), "'affine' has no options, got size"),
         (AFFINE + "[training]\nsteps = 2", (), r"'affine' is not trained in steps: leave \[training\] out"),
         ("method =", (), "not TOML"),
@@ -237,6 +256,7 @@ def test_only_the_first_of_several_processes_tells_and_saves(place, monkeypatch)
     monkeypatch.setattr(verb, "in_first_process", lambda: False)
     assert run(GEN) == ""
     assert not (place / "asked" / "model").exists()
+    assert not (place / "asked" / "train.json").exists()
 
 
 def test_a_method_with_cases_enough_is_saved_with_its_intervals(place, monkeypatch):
@@ -254,3 +274,37 @@ def test_too_few_cases_calibrate_nothing(place, monkeypatch):
     monkeypatch.setattr(saving, "save_model", lambda model, training, folder: saved.append(training))
     run(FEED_FORWARD)
     assert saved[0].half_width_90 == {}
+
+
+def test_held_out_cases_that_weigh_too_little_calibrate_nothing_and_that_is_said(place, monkeypatch):
+    """Most of the twelve are corners, which weigh a 32nd of a case in the middle: together less than nine."""
+    few = replace(stand_in(off_grid=25), design=("factorial",) * 32 + ("support",) * 15 + ("off_grid",) * 10)
+    saved = []
+    monkeypatch.setattr(verb, "read_muscle", lambda store, muscle: few)
+    monkeypatch.setattr(saving, "save_model", lambda model, training, folder: saved.append(training))
+    (place / "asked.toml").write_text(FEED_FORWARD.replace("pairs", "calibration = 0.3\npairs"))
+    done = CliRunner().invoke(app, ["asked.toml"])
+    assert done.exit_code == 0, done.exception
+    assert "a share of 0.3 holds out too few cases for 90 % intervals: all teach" in done.stderr
+    assert saved[0].half_width_90 == {}
+
+
+def test_a_corrected_file_is_trained_in_the_folder_of_the_wrong_one(place):
+    with pytest.raises(InputError, match="skip 'affine'"):
+        run(GEN.replace("[options]", '[options]\nskip = "affine"\nactivation_input = true'))
+    assert json.loads(run(GEN, "--json"))["method"] == "gen_8"
+
+
+def test_a_training_that_was_killed_before_its_first_step_goes_on(place):
+    run(GEN)
+    (place / "asked" / "train.json").unlink()
+    (place / "asked" / "model").rmdir()
+    assert json.loads(run(GEN, "--json"))["method"] == "gen_8"
+    assert (place / "asked" / "train.json").is_file()
+
+
+def test_a_folder_below_a_file_is_refused_before_anything_is_learned(place, monkeypatch):
+    (place / "file").write_text("words")
+    monkeypatch.setattr(verb, "fit", lambda *_: pytest.fail("it was trained"))
+    with pytest.raises(InputError, match="cannot be written"):
+        run(AFFINE, "--out", "file/model")

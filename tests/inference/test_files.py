@@ -1,6 +1,7 @@
 """Files around a model: sensors in, answers out, the truth beside shipped models, the models themselves."""
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -62,6 +63,10 @@ def test_answers_are_written_as_they_are(tmp_path, linear):
     assert float(rows[43]["position_z_mm"]) == pytest.approx(answer.values["position"][1, 3, 2], rel=1e-6)
     assert float(rows[43]["von_mises_mpa"]) == pytest.approx(answer.values["von_mises"][1, 3], rel=1e-6)
     assert float(rows[43]["position_half_width_90_mm"]) == 0.25
+    assert list(rows[43])[-1] == "inside"
+    assert {row["inside"] for row in rows} == {"1"}
+    write_answer(tmp_path / "a.csv", replace(answer, inside=None), linear.body)
+    assert "inside" not in (tmp_path / "a.csv").read_text().splitlines()[0]
 
 
 def test_answers_go_to_known_kinds_of_files(tmp_path, linear):

@@ -225,6 +225,16 @@ def test_unknown_activations_are_answered_by_models_that_can(linear):
     assert _known(linear, unknown_activation=True).predict(unknown).inside.tolist() == [True]
 
 
+def test_the_load_of_cases_whose_activations_are_unknown_is_not_judged(linear):
+    """What is told by sensors alone has no activations and no load: neither can be outside."""
+    cases = stand_in_cases()
+    question = PairSampler(cases, np.array(SENSORS), "material").batch(np.array([[0, 2], [0, 2]])).question
+    activation = question.activation.copy()
+    activation[0] = np.nan
+    asked = replace(question, activation=activation, hand_load=np.full(2, 30.0))
+    assert _known(linear, unknown_activation=True).predict(asked).inside.tolist() == [True, False]
+
+
 def test_sensors_at_the_same_place_are_refused(mean):
     cases = stand_in_cases()
     question = PairSampler(cases, np.array([4, 30])).batch(np.array([[0, 5]])).question

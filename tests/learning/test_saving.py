@@ -15,6 +15,7 @@ from myograph.ensemble.pairs.predictor import Predictor
 from myograph.ensemble.pairs.protocols import split_pairs
 from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.errors import InputError, NotConvergedError
+from myograph.inference.held_out import factorial_checksum
 from myograph.inference.loaded import load
 from myograph.inference.model_file import CARD, MODEL_FILE, NETWORK, WEIGHTS
 from myograph.inference.signature import Signature
@@ -175,6 +176,21 @@ def test_the_operator_set_is_the_chosen_one(folder):
     network = onnx.load_model_from_string((folder / NETWORK).read_bytes())
     assert load(folder).told.opset == OPSET
     assert {item.domain: item.version for item in network.opset_import}[""] == OPSET
+
+
+def test_an_operator_set_that_torch_does_not_reach_is_refused(tmp_path, monkeypatch):
+    """Torch warns, where it cannot convert a network, and gives that of its own operator set."""
+    exported = torch.onnx.export
+    monkeypatch.setattr(
+        torch.onnx, "export", lambda *given, **asked: exported(*given, **{**asked, "opset_version": 18})
+    )
+    with pytest.raises(InputError, match=r"mixed: opset: expected one that torch can write .* got 20: it would be 18"):
+        save_model(mixed(), training(), tmp_path / "model", opset=20)
+    assert not (tmp_path / "model").exists()
+
+
+def test_the_list_that_the_split_was_drawn_from_is_told(folder):
+    assert load(folder).told.origin.factorial == factorial_checksum(stand_in_cases())
 
 
 def test_a_network_that_answers_otherwise_is_not_saved(tmp_path, folder, monkeypatch):

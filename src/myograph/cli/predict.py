@@ -15,7 +15,7 @@ from myograph.ensemble.pairs.question import Answer
 from myograph.errors import InputError
 from myograph.export.steps import Step
 from myograph.export.vtkhdf import write_vtkhdf
-from myograph.inference.answer_file import check_kind, write_answer
+from myograph.inference.answer_file import arrays_of, check_kind, write_answer
 from myograph.inference.loaded import LoadedModel, load
 from myograph.inference.sensor_file import read_sensors
 from myograph.inference.shipped import find_model
@@ -122,7 +122,7 @@ def _asked(activation: str | None, activations: Path | None, sensors: Path | Non
     if activations is None:
         row = None if activation is None else np.array([activation_numbers(activation)])
         return _Asked(row, np.array([load_n]), sensors)
-    cases, _ = read_cases(activations, "asked")
+    cases, _ = read_cases(activations, "asked", repeats=True)
     if any(case.elbow_angle is not None for case in cases):
         raise InputError(f"{activations}: expected no elbow_angle_deg: the model answers the arm in its equilibrium")
     loads = np.array([case.hand_load for case in cases])
@@ -160,8 +160,9 @@ def _write(out: Path, model: LoadedModel, asked: _Asked, answer: Answer) -> None
         write_answer(out, answer, model.body)
         return
     muscle = model.told.muscle
-    steps = []
-    for case, newtons in enumerate(asked.hand_load):
-        fields = {name: values[case] for name, values in answer.values.items()}
-        steps.append(Step(float(case), {muscle: fields}, {"hand_load": np.array([newtons])}))
+    verdict = {} if answer.inside is None else {"inside": answer.inside.astype(float)}
+    told, arrays, steps = {"hand_load": asked.hand_load, **verdict}, arrays_of(answer), []
+    for case in range(len(asked.hand_load)):
+        fields = {name: values[case] for name, values in arrays.items()}
+        steps.append(Step(float(case), {muscle: fields}, {name: told[name][[case]] for name in told}))
     write_vtkhdf(out, {muscle: model.body.body}, steps)

@@ -25,21 +25,23 @@ def write_answer(path: Path, answer: Answer, body: ModelBody) -> None:
     """Write the file, whole or not at all.
 
     Arrays: reference_position (nodes, 3); FIELD, FIELD_deviation, FIELD_half_width_90 (cases, nodes, ...);
-    inside (cases). Columns: case, node, then such as position_x_mm, von_mises_mpa, position_half_width_90_mm.
+    inside (cases). Columns: case, node, then such as position_x_mm, von_mises_mpa, position_half_width_90_mm; at last
+    inside, 1 or 0, the same for all nodes of a case. The verdict is there where the model gives one.
     """
     check_kind(path, (".csv", ".npz"))
-    arrays = _arrays(answer)
+    arrays = arrays_of(answer)
     if path.suffix == ".npz":
         kept = {"reference_position": body.body.reference, **arrays}
         if answer.inside is not None:
             kept["inside"] = answer.inside
         write_whole(path, lambda file: np.savez_compressed(file, allow_pickle=False, **kept))
         return
-    text = _table(arrays).encode()
+    text = _table(arrays, answer.inside).encode()
     write_whole(path, lambda file: file.write(text))
 
 
-def _arrays(answer: Answer) -> dict[str, np.ndarray]:
+def arrays_of(answer: Answer) -> dict[str, np.ndarray]:
+    """FIELD, FIELD_deviation, FIELD_half_width_90 (cases, nodes, ...)."""
     return {
         **answer.values,
         **{f"{name}_deviation": values for name, values in answer.deviation.items()},
@@ -47,7 +49,7 @@ def _arrays(answer: Answer) -> dict[str, np.ndarray]:
     }
 
 
-def _table(arrays: dict[str, np.ndarray]) -> str:
+def _table(arrays: dict[str, np.ndarray], inside: np.ndarray | None) -> str:
     cases, nodes = next(iter(arrays.values())).shape[:2]
     columns = [np.repeat(np.arange(cases), nodes), np.tile(np.arange(nodes), cases)]
     names = ["case", "node"]
@@ -57,6 +59,9 @@ def _table(arrays: dict[str, np.ndarray]) -> str:
         parts = [f"_{part}" for part in FIELDS[name].components] if values.ndim == 3 else [""]
         names += [f"{name}{part}{ending}" for part in parts]
         columns += list(np.moveaxis(values.reshape(cases * nodes, len(parts)), 1, 0))
+    if inside is not None:
+        names.append("inside")
+        columns.append(np.repeat(inside.astype(int), nodes))
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(names)

@@ -71,6 +71,9 @@ class Origin(Model):
         Of the cases; empty where these do not say.
     protocol, split_seed
         Which pairs taught (`myograph.ensemble.pairs.protocols`).
+    factorial
+        Checksum of the list that the split was drawn from (`myograph.inference.held_out`); empty where the file does
+        not say: those models were taught on the 32 corners.
     cases
         Number of cases that taught.
     seed
@@ -87,6 +90,7 @@ class Origin(Model):
     simulator: str
     protocol: str
     split_seed: int
+    factorial: str = ""
     cases: int
     seed: int
     command: str

@@ -55,8 +55,14 @@ class Asked:
         return _over(default, self.options, f"{self.source}: options of {self.method}")
 
     def training_over(self, default: TrainingConfig) -> TrainingConfig:
-        """Likewise of its training."""
-        return _over(default, self.training, f"{self.source}: training")
+        """Likewise of its training; raises InputError, too, for patience without validation."""
+        config = _over(default, self.training, f"{self.source}: training")
+        if config.patience is not None and not config.validation:
+            raise InputError(
+                f"{self.source}: training: patience: expected cases to validate on, got none; set 'validation', such "
+                "as 0.1"
+            )
+        return config
 
     def check_plain(self, options: bool = False) -> None:
         """Raise InputError for settings of a training; also for any options, unless the method has some."""

@@ -36,7 +36,8 @@ class Exported:
 def export(model: Saveable, cases: MuscleCases, split: Split, opset: int = 18) -> Exported:
     """Export the module and compare; the questions are about training pairs.
 
-    Raises InputError for a module that cannot be exported so, NotConvergedError where onnxruntime answers otherwise.
+    Raises InputError for a module that cannot be exported so, or not in that operator set, NotConvergedError where
+    onnxruntime answers otherwise.
     """
     network = _network(model, example_question(model.signature, cases, split), opset)
     return Exported(network, opset, check_parity(model, network, cases, split))
@@ -77,7 +78,18 @@ def _network(model: Saveable, example: Question, opset: int) -> bytes:
             f"got: {reason}"
         ) from problem
     assert program is not None
+    _check_opset(model.name, program.model_proto, opset)
     return _without_sources(program.model_proto)
+
+
+def _check_opset(name: str, network: Any, opset: int) -> None:
+    """Raise InputError where torch wrote another operator set than was asked for, as it does with a mere warning."""
+    found = next((item.version for item in network.opset_import if item.domain in ("", "ai.onnx")), None)
+    if found != opset:
+        raise InputError(
+            f"{name}: opset: expected one that torch can write this network in, got {opset}: it would be {found}; take "
+            "that, or convert it by `myograph export onnx --opset`"
+        )
 
 
 @contextlib.contextmanager

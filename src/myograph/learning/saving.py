@@ -18,6 +18,7 @@ from myograph.ensemble.pairs.protocols import Split
 from myograph.errors import InputError
 from myograph.fields import FIELDS
 from myograph.inference.body_file import body_bytes
+from myograph.inference.held_out import factorial_checksum
 from myograph.inference.model_file import (
     BODY,
     CARD,
@@ -123,6 +124,7 @@ def _told(model: Saveable, training: Training, trained: TrainedRange, exported: 
         **{key: attributes.get(key, "") for key in ("arm_checksum", "preset", "simulator")},
         protocol=training.split.protocol,
         split_seed=training.split_seed,
+        factorial=factorial_checksum(training.cases),
         cases=len(training.split.train.cases),
         seed=training.seed,
         command=training.command,

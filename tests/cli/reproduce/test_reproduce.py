@@ -14,6 +14,7 @@ from myograph.cli.progress import Steps
 from myograph.cli.reproduce import run_reproduction
 from myograph.cli.reproduce import runner as running
 from myograph.cli.reproduce.data import Places
+from myograph.cli.reproduce.experiment import Experiment, corners, taught_twice
 from myograph.cli.reproduce.registry import EXPERIMENTS
 from myograph.errors import InputError, MissingPackageError
 from myograph.evaluation.experiments.chapter import SECTIONS
@@ -42,6 +43,29 @@ def test_a_section_is_made_from_a_store_and_the_second_run_makes_nothing(store, 
     monkeypatch.setattr(running, "side_by_side", lambda *_: pytest.fail("a trial was made again"))
     again = run_reproduction(built_in_arm(), "tiny", ["meshes"], places, Steps())
     assert again["sections"] == result["sections"]
+
+
+def test_a_row_that_was_left_out_is_made_when_its_package_is_there(store, tmp_path, monkeypatch, here):
+    def missing(*_):
+        raise MissingPackageError("torch-geometric", "train", "the processor 'GCNConv'")
+
+    affine = Experiment(lambda data, size: taught_twice("affine", "affine", corners(data), size), lambda outcome: ())
+    monkeypatch.setitem(EXPERIMENTS, "meshes", affine)
+    asked = (built_in_arm(), "tiny", ["meshes"], Places(tmp_path / "out", store), Steps())
+    with monkeypatch.context() as without:
+        without.setattr("myograph.cli.reproduce.trying.run_trial", missing)
+        (row,) = run_reproduction(*asked)["sections"]["meshes"]["rows"]
+    assert "torch-geometric" in row["left_out"]
+    rows = run_reproduction(*asked)["sections"]["meshes"]["rows"]
+    assert [row["protocol"] for row in rows] == ["thesis", "strict", "off_grid"]
+
+
+def test_cases_of_another_arm_are_refused_and_the_option_named(store, tmp_path):
+    other = built_in_arm().model_copy(update={"name": "another arm"})
+    with pytest.raises(
+        InputError, match=r"expected cases of the arm \w{16}, got those of \w{16}; name their arm by --arm"
+    ):
+        run_reproduction(other, "tiny", ["meshes"], Places(tmp_path / "out", store), Steps())
 
 
 def test_an_unknown_section_is_named_before_anything_is_made(tmp_path):

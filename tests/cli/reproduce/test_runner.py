@@ -1,13 +1,16 @@
 """Trials are made once, errors keep what is finished, and a missing package leaves a row with its reason."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from myograph.cli.progress import Steps
 from myograph.cli.reproduce import runner as running
-from myograph.cli.reproduce.cache import Cache
+from myograph.cli.reproduce import weighing
+from myograph.cli.reproduce.cache import Cache, Found
 from myograph.cli.reproduce.experiment import corners, taught_twice
-from myograph.cli.reproduce.outcome import table_rows
+from myograph.cli.reproduce.outcome import finished, table_rows
 from myograph.cli.reproduce.runner import Runner
 from myograph.cli.reproduce.trial import Chosen, Trial
 from myograph.cli.reproduce.trying import cases_of, run_trial, split_of
@@ -116,3 +119,52 @@ def test_a_weighed_model_says_its_size_and_its_multiplications(data, store):
     assert told["onnx_kb"] > 0
     assert told["onnx_ms"] > 0
     assert told["multiply_adds"] > 0
+
+
+def test_trials_that_were_kept_and_are_gone_are_refused(runner, data, monkeypatch):
+    monkeypatch.setattr(running, "side_by_side", lambda work, tasks, on_news: [None for _ in tasks])
+    with pytest.raises(InputError, match=r"cache: expected the 2 trials that were kept there.* run it again"):
+        runner.run("a", plain(data, "affine"))
+
+
+FIGURES = {"protocols": {}, "seconds": 1.0}
+
+
+@pytest.fixture
+def weighed_without_c(runner, data, monkeypatch):
+    """A trial of neural modes in the cache that had no compiler; the list of those that are made anew, with one."""
+    (trial, _) = plain(data, "neural_modes")
+    trial = replace(trial, weighed=True)
+    runner.cache.put(runner.keys([trial])[0], Found(FIGURES))
+    made = []
+
+    def one_by_one(work, tasks, on_news):
+        for task in tasks:
+            made.append(task[0].name)
+            runner.cache.put(task[1], Found({**FIGURES, "c_kb": 57.0}))
+        return [None for _ in tasks]
+
+    monkeypatch.setattr(running, "side_by_side", one_by_one)
+    return trial, made
+
+
+def test_a_model_that_was_weighed_without_a_compiler_is_weighed_anew_where_there_is_one(
+    runner, weighed_without_c, monkeypatch
+):
+    trial, made = weighed_without_c
+    monkeypatch.setattr(weighing.shutil, "which", lambda _: None)
+    assert runner.run("a", [trial]).found[0].told == FIGURES
+    assert finished([trial], [{"name": trial.name}])
+    monkeypatch.setattr(weighing.shutil, "which", lambda _: "cc")
+    assert not finished([trial], [{"name": trial.name}])
+    for _ in range(2):
+        assert runner.run("a", [trial]).found[0].told["c_kb"] == 57.0
+    assert made == ["neural_modes"]
+    assert finished([trial], [{"name": trial.name, "c_kb": 57.0}])
+
+
+def test_a_section_with_a_row_that_was_left_out_is_not_finished(data):
+    trials = plain(data, "affine", "do_nothing")
+    rows = [{"name": "affine", "protocol": "strict"}, {"name": "do_nothing", "left_out": "no package"}]
+    assert not finished(trials, rows)
+    assert finished(trials, rows[:1])

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import torch
 
 from myograph.ensemble.muscle_cases import cases_in_memory
 from myograph.ensemble.pairs.predictor import Learner, Predictor
@@ -15,6 +16,7 @@ from myograph.learning.gen.learner import GenLearner, reading
 from myograph.learning.gen.rebuild import rebuild
 from myograph.learning.onnx_export import export
 from myograph.learning.training import TrainingConfig
+from myograph.learning.training.drawing import draw_batch
 from tests.learning.gen.conftest import FEW, KINDS
 
 
@@ -186,3 +188,27 @@ def test_a_sampler_that_does_not_ask_for_what_is_answered_is_an_input_error(samp
 def test_another_reading_of_a_network_without_activation_input_is_an_input_error(gen_8):
     with pytest.raises(InputError, match="gen_8: expected a graph element network with an activation input"):
         reading(gen_8.predictor, "activation")
+
+
+def test_processes_forget_the_activations_that_one_alone_would_forget(sampler, strict, monkeypatch):
+    training = FEW.model_copy(update={"batch": 8})
+    learner, config = GenLearner(KINDS["both"], training), KINDS["both"]
+    trainable = learner._trainable(
+        config, sampler, strict.train, PairSet(strict.train.initial[:0], strict.train.target)
+    )
+
+    def activations(seed):
+        generator = np.random.default_rng(seed)
+        batch = draw_batch(sampler, strict.train, training, generator)
+        parts = trainable._forget(trainable.parts(batch.question), generator)
+        return parts["activation"].numpy(), parts["sensor_places"].shape[1], generator.random()
+
+    (alone, sensors, chance) = activations(2)
+    assert 0 < np.isnan(alone).any(axis=1).sum() < 8
+    monkeypatch.setattr(torch.distributed, "is_initialized", lambda: True)
+    monkeypatch.setattr(torch.distributed, "get_world_size", lambda: 2)
+    for rank in (0, 1):
+        monkeypatch.setattr(torch.distributed, "get_rank", lambda rank=rank: rank)
+        share, kept, after = activations(2)
+        np.testing.assert_array_equal(share, alone[rank::2])
+        assert (kept, after) == (sensors, chance)

@@ -116,13 +116,21 @@ def test_the_mean_is_a_number_even_in_nodes_whose_shares_are_too_small_for_one()
     assert answer(sharp, points, values, queries).isfinite().all()
 
 
-@pytest.mark.parametrize("axes", [2, 3, 4])
+@pytest.mark.parametrize("axes", [1, 2, 3, 4])
 @pytest.mark.parametrize("representer", ["dense", "nearest", "barycentric"])
 def test_space_may_have_any_number_of_dimensions(axes, representer):
     draw = torch.Generator().manual_seed(1)
     points, queries = (torch.rand(2, count, axes, generator=draw) for count in (5, 20))
     gen = network(NetworkConfig(nodes_per_axis=3, representer=representer), sides=np.ones(axes), values=[1])
     assert answer(gen, points, points[..., :1], queries).shape == (2, 20, 3)
+
+
+def test_on_a_line_the_trap_of_triangles_joins_neighbours_as_ever():
+    right, trap = (
+        network(NetworkConfig(nodes_per_axis=5, traps=Traps(triangle_edges=on)), sides=np.ones(1))
+        for on in (False, True)
+    )
+    assert torch.equal(right.graph.edges, trap.graph.edges)
 
 
 def test_many_functions_go_in_each_at_its_own_points_and_many_come_out():

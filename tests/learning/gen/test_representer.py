@@ -50,7 +50,7 @@ def test_only_the_nearest_nodes_share_and_their_shares_sum_to_one():
     torch.testing.assert_close(few.weights.sum(dim=2), torch.ones(2, 30))
 
 
-@pytest.mark.parametrize("axes", [2, 3])
+@pytest.mark.parametrize("axes", [1, 2, 3])
 def test_barycentric_shares_reproduce_the_places_of_points_inside(axes):
     """Linear functions are reproduced exactly: sum_n w_n x_n = p."""
     points, nodes = cloud(axes=axes)

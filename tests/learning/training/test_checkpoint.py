@@ -15,7 +15,9 @@ from safetensors.torch import load_file, save_file
 
 from myograph.errors import InputError
 from myograph.learning.training import train
-from myograph.learning.training.checkpoint import FILE
+from myograph.learning.training.checkpoint import FILE, held
+from myograph.learning.training.processes import start_fabric
+from myograph.learning.training.run import Run
 from tests.learning.training.conftest import FEW
 
 SETTINGS = {
@@ -178,6 +180,30 @@ def test_two_trainings_in_one_folder_are_one_too_many(field, tmp_path):
 
     with pytest.raises(InputError, match="is at work on it"):
         train(*field(), progress=second, folder=tmp_path)
+
+
+def test_a_second_training_leaves_alone_what_the_first_is_writing(field, tmp_path):
+    def second(step, *_):
+        if step == 1:
+            (tmp_path / f".{FILE}-now").write_bytes(b"half")
+            with pytest.raises(InputError, match="is at work on it"):
+                train(*field(), folder=tmp_path)
+            assert (tmp_path / f".{FILE}-now").exists()
+
+    train(*field(), progress=second, folder=tmp_path)
+
+
+def test_what_the_first_process_refuses_all_refuse_and_only_the_first_writes(field, tmp_path, monkeypatch):
+    trainable, config = field()
+    fabric = start_fabric(config)
+    monkeypatch.setattr(type(fabric), "is_global_zero", False)
+    monkeypatch.setattr(fabric, "broadcast", lambda _: "run: holds another training")
+    with (
+        pytest.raises(InputError, match="run: holds another training"),
+        held(tmp_path / "run", Run(trainable, config, fabric), ""),
+    ):
+        pass
+    assert not (tmp_path / "run").exists()
 
 
 def test_a_folder_that_cannot_be_written_is_a_mistake(field, tmp_path):

@@ -2,12 +2,13 @@
 
 import csv
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from myograph.errors import MissingPackageError
-from myograph.learning.training import train
+from myograph.errors import InputError, MissingPackageError
+from myograph.learning.training import logs, train
 
 
 def rows(folder):
@@ -70,3 +71,57 @@ def test_without_a_folder_nothing_is_written(field, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     train(*field())
     assert list(tmp_path.iterdir()) == []
+
+
+FULL = Path("/dev/full")
+full_disk = pytest.mark.skipif(not FULL.exists(), reason="there is no file that is always full here")
+
+
+class Board:
+    """One of TensorBoard that fails from some call on."""
+
+    def __init__(self, most):
+        self.calls, self.most = 0, most
+
+    def add_scalar(self, *_):
+        self.calls += 1
+        if self.calls > self.most:
+            raise OSError(28, "No space left on device")
+
+    def add_histogram(self, *_):
+        pass
+
+    def close(self):
+        self.add_scalar()
+
+
+@full_disk
+def test_a_full_disk_is_told_of_and_not_a_fault(field, tmp_path):
+    train(*field(), folder=tmp_path / "run")
+    log = tmp_path / "run" / "course.csv"
+    log.unlink()
+    log.symlink_to(FULL)
+    with pytest.raises(InputError, match=r"course\.csv: cannot be written \(No space left on device\); free some room"):
+        train(*field(), folder=tmp_path / "run")
+
+
+@full_disk
+def test_a_disk_that_becomes_full_is_told_of_at_that_step(field, tmp_path, monkeypatch):
+    def fill(step, *_):
+        if step == 2:
+            opened[0]._file.close()
+            opened[0]._file = FULL.open("w", buffering=1)
+
+    opened = []
+    enter = logs.CourseLog.__enter__
+    monkeypatch.setattr(logs.CourseLog, "__enter__", lambda log: opened.append(log) or enter(log))
+    with pytest.raises(InputError, match=r"course\.csv: cannot be written"):
+        train(*field(), progress=fill, folder=tmp_path / "run")
+
+
+@pytest.mark.parametrize("most", [0, 18], ids=["at a step", "at the end"])
+def test_tensorboard_without_room_is_told_of(field, tmp_path, monkeypatch, most):
+    """Three scalars a step; what waits to be written finds no room when the file is closed."""
+    monkeypatch.setattr(logs, "_board", lambda *_: Board(most))
+    with pytest.raises(InputError, match="tensorboard: cannot be written"):
+        train(*field(tensorboard=True), folder=tmp_path / "run")

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from myograph.ensemble.pairs.protocols import PairSet
+from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.errors import InputError
 from myograph.inference.ways import WHOLE, told_only
 from myograph.learning.modes.config import ModesConfig
 from myograph.learning.modes.learner import ModesLearner
-from myograph.learning.trust.calibrated import CalibratedLearner, edge_weights, hold_out
+from myograph.learning.trust.calibrated import CalibratedLearner, edge_weights, enough, hold_out
 from myograph.learning.trust.coverage import coverage
 from myograph.learning.trust.nearness import nearness
 from tests.learning.modes.conftest import QUICK
@@ -52,6 +53,37 @@ def test_holding_out_all_initial_cases_is_refused(block_cases, split):
 def test_a_case_at_the_ends_of_activations_stands_for_half_a_step_of_each():
     activation = np.array([[0.1, 0.5, 0.9, 0.3, 0.3], [0.0, 0.5, 0.9, 0.3, 1.0]])
     assert edge_weights(activation).tolist() == [1, 0.25]
+
+
+@pytest.fixture
+def mostly_corners(block_cases):
+    """Three of four cases at corners of the cube, where a case weighs a 32nd."""
+    activation = np.round(block_cases.activation)
+    activation[::4] = 0.5
+    return replace(block_cases, activation=activation)
+
+
+def test_nine_held_out_cases_are_enough_only_if_they_weigh_alike(block_cases, mostly_corners, split):
+    share = 12 / len(split.train.cases)
+    weights = edge_weights(mostly_corners.activation[hold_out(mostly_corners, split, share, 0)[1]])
+    assert (len(weights), weights.max()) == (12, 1)
+    assert weights.sum() < 9
+    assert not enough(mostly_corners, split, share)
+    assert enough(mostly_corners, split, 0.6)
+    middle = replace(block_cases, activation=np.full_like(block_cases.activation, 0.5))
+    assert enough(middle, split, share)
+    assert not enough(middle, split, 8 / len(split.train.cases))
+    assert not enough(middle, split, 0.0)
+
+
+def test_too_few_cases_to_calibrate_on_are_refused_before_anything_is_learned(mostly_corners, split):
+    class Eager(Guesser):
+        def fit(self, sampler, split, progress=None):
+            pytest.fail("it was taught")
+
+    sampler = PairSampler(mostly_corners, np.array([0, 8, 13, 20]))
+    with pytest.raises(InputError, match="expected cases enough for 90 %, such as 9 of equal weight, got 12"):
+        CalibratedLearner(Eager(0.0), 12 / len(split.train.cases)).fit(sampler, split)
 
 
 def test_intervals_of_a_method_without_deviations_have_one_width(sampler, split):

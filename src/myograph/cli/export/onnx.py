@@ -1,16 +1,18 @@
 """`myograph export onnx`: the network of a saved model, checked, for any ONNX runtime."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
 import typer
 
-from myograph.case import MUSCLES
+from myograph.case import MUSCLES, check_muscle
 from myograph.cli.arm_model import model_folder, read_models
 from myograph.cli.options import Json, print_json
 from myograph.errors import InputError, MissingPackageError
 from myograph.export.target import write_place
+from myograph.inference.at_rest import question_at_rest
 from myograph.inference.loaded import LoadedModel, load
 from myograph.inference.model_file import MODEL_FILE, NETWORK, read_file
 from myograph.inference.session import open_session
@@ -18,6 +20,8 @@ from myograph.inference.session import open_session
 BEGINNING = b"\x08"
 """Of an ONNX file: the number of its first field, the version of the format."""
 PARITY = 1e-5
+MOVED_MM = 0.5
+"""How much farther than the one before it each sensor is moved along every axis, for networks to differ by."""
 
 
 def onnx(
@@ -32,6 +36,8 @@ def onnx(
     """Write the network of a saved model; everything is inside: mm, N and MPa in and out."""
     folder = _one_folder(model_folder(model), model, muscle)
     loaded = load(folder)
+    if muscle is not None and loaded.told.muscle != check_muscle(muscle):
+        raise InputError(f"{folder}: expected a model of {muscle}, got one of {loaded.told.muscle}; leave --muscle out")
     network = read_file(folder, NETWORK, loaded.told.files[NETWORK])
     if opset is not None and opset != loaded.told.opset:
         network = _converted(network, opset)
@@ -70,13 +76,12 @@ def _converted(network: bytes, opset: int) -> bytes:
 
 
 def _check_same(loaded: LoadedModel, network: bytes) -> None:
-    """Raise InputError where the converted network answers otherwise."""
-    signature = loaded.told.signature
-    if "activation" not in signature.inputs or signature.least_sensors > 1:
-        return
-    other = LoadedModel(loaded.told, loaded.body, open_session(network, signature, 1, "converted"))
-    asked = np.linspace(0.1, 0.9, 2 * len(MUSCLES)).reshape(2, -1)
-    wanted, found = (one.predict_activation(asked).values for one in (loaded, other))
+    """Raise InputError where the converted network answers otherwise, of two states with its sensors moved apart."""
+    other = LoadedModel(loaded.told, loaded.body, open_session(network, loaded.told.signature, 1, "converted"))
+    asked = question_at_rest(loaded, np.linspace(0.1, 0.9, 2 * len(MUSCLES)).reshape(2, -1))
+    moved = asked.sensor_target["position"] + MOVED_MM * np.arange(len(asked.sensor_nodes))[:, None]
+    asked = replace(asked, sensor_target={**asked.sensor_target, "position": moved})
+    wanted, found = (one.predict(asked).values for one in (loaded, other))
     for name, values in wanted.items():
         if not np.abs(found[name] - values).max() <= PARITY * np.abs(values).max():
             raise InputError(

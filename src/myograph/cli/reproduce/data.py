@@ -17,6 +17,7 @@ import numpy as np
 from jaxtyping import Float
 
 import myograph
+from myograph.anatomy.load import arm_checksum
 from myograph.anatomy.model import Arm
 from myograph.cli.progress import Steps
 from myograph.cli.reproduce.sizes import Size
@@ -24,6 +25,7 @@ from myograph.cli.reproduce.trial import MUSCLE
 from myograph.ensemble.design import Design, DesignSpec, make_design
 from myograph.ensemble.here import compute_here
 from myograph.ensemble.muscle_cases import MuscleCases
+from myograph.ensemble.simulators import IMPORT
 from myograph.ensemble.spec import SimulatorSpec
 from myograph.ensemble.store.making import make_store, plan_store
 from myograph.ensemble.store.opening import reasons
@@ -77,8 +79,18 @@ class Data:
             told = found.attributes.get("preset")
             if told in ("tiny", "quick", "thesis") and told != self.preset:
                 raise InputError(f"{self.path(name)}: expected cases of preset '{self.preset}', got '{told}'")
+            self._check_arm(name, found)
             self._opened[name] = found
         return self._opened[name]
+
+    def _check_arm(self, name: str, cases: MuscleCases) -> None:
+        """Raise InputError for cases of another arm; imported ones are of none."""
+        wanted, found = arm_checksum(self.arm), cases.attributes.get("arm_checksum")
+        if found not in (None, wanted) and cases.attributes.get("simulator") != IMPORT:
+            raise InputError(
+                f"{self.path(name)}: expected cases of the arm {wanted[:16]}, got those of {str(found)[:16]}; name "
+                "their arm by --arm"
+            )
 
     def numbers(self, name: str, *words: str) -> tuple[int, ...]:
         """Numbers of the cases that carry one of these words."""

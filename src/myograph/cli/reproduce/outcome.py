@@ -11,6 +11,7 @@ from myograph.cli.reproduce.cache import Found
 from myograph.cli.reproduce.data import Data
 from myograph.cli.reproduce.sizes import Size
 from myograph.cli.reproduce.trial import TESTED, Trial
+from myograph.cli.reproduce.weighing import lacks_c
 from myograph.ensemble.pairs.protocols import PROTOCOLS, Protocol
 from myograph.evaluation import ErrorSummary, Figure
 
@@ -98,6 +99,14 @@ def table_rows(outcome: Outcome) -> list[Row]:
             if found:
                 rows.append({"name": name, "protocol": protocol, "seeds": len(found), **_figures(found, protocol)})
     return rows
+
+
+def finished(trials: Sequence[Trial], rows: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether nothing could be added now: no row was left out, and no model waits to be weighed in C."""
+    own = {name: {} for name in dict.fromkeys(trial.name for trial in trials)}
+    for row in rows:
+        own.setdefault(row["name"], {}).update(row)
+    return not any("left_out" in row for row in rows) and not any(lacks_c(trial, own[trial.name]) for trial in trials)
 
 
 def _figures(found: Sequence[Found], protocol: Protocol) -> dict[str, float | int]:

@@ -10,7 +10,8 @@ from myograph.cli.reproduce.data import Data
 from myograph.cli.reproduce.outcome import Outcome
 from myograph.cli.reproduce.trial import Trial
 from myograph.cli.reproduce.trying import try_and_keep
-from myograph.errors import MyographError
+from myograph.cli.reproduce.weighing import lacks_c
+from myograph.errors import InputError
 from myograph.processes import side_by_side
 
 
@@ -26,7 +27,8 @@ class Runner:
         """What the trials of a section find; the first error is raised, with all finished trials kept."""
         keys = self.keys(trials)
         wanted = dict(zip(keys, trials, strict=True))
-        kept = {key: found for key in wanted if (found := self.cache.get(key)) is not None}
+        known = {key: found for key in wanted if (found := self.cache.get(key)) is not None}
+        kept = {key: found for key, found in known.items() if not lacks_c(wanted[key], found.told)}
         missing = {key: trial for key, trial in wanted.items() if key not in kept}
         reasons = self._make(section, missing)
         kept |= {key: found for key in missing if (found := self.cache.get(key)) is not None}
@@ -58,6 +60,9 @@ class Runner:
     ) -> Outcome:
         lost = [key for key in keys if key not in kept and key not in reasons]
         if lost:
-            raise MyographError(f"{self.cache.folder}: {len(lost)} trials were made and cannot be read; run it again")
+            raise InputError(
+                f"{self.cache.folder}: expected the {len(keys)} trials that were kept there, got none of {len(lost)}: "
+                "damaged or taken away; run it again, or in another folder"
+            )
         left_out = {trial.name: reasons[key] for trial, key in zip(trials, keys, strict=True) if key in reasons}
         return Outcome(self.data, self.data.size, trials, [kept.get(key) for key in keys], left_out)

@@ -99,8 +99,8 @@ def run_reproduction(arm: Arm, preset: str, sections: list[str], places: "Places
 
 
 def _make(name: str, data: "Data", runner: "Runner", shelf: "Shelf") -> None:
-    """One section, unless it lies there already."""
-    from myograph.cli.reproduce.outcome import rounded
+    """One section, unless it lies there already with all that can be had."""
+    from myograph.cli.reproduce.outcome import finished, rounded
     from myograph.cli.reproduce.registry import EXPERIMENTS
     from myograph.evaluation.experiments.page import Made
     from myograph.evaluation.page import duration
@@ -110,7 +110,8 @@ def _make(name: str, data: "Data", runner: "Runner", shelf: "Shelf") -> None:
     trials = experiment.trials(data, data.size)
     told = [[trial.name for trial in trials], runner.keys(trials)]
     key = hashlib.sha256(json.dumps(told).encode()).hexdigest()
-    if shelf.get(name, key) is not None:
+    kept = shelf.get(name, key)
+    if kept is not None and finished(trials, kept.rows):
         return
     outcome = runner.run(name, trials)
     with runner.steps.timed(f"figures of {name}"):

@@ -8,8 +8,11 @@ import contextlib
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
+from myograph.cli.reproduce.trial import Trial
 from myograph.ensemble.pairs.predictor import Predictor
 from myograph.ensemble.pairs.protocols import Split
 from myograph.ensemble.pairs.sampler import PairSampler
@@ -22,7 +25,7 @@ from myograph.inference.model_file import NETWORK
 
 WITHIN_MM, KILOBYTE, ANSWERS = 0.05, 1000, 2000
 COMPILER = ("-std=c99", "-O2")
-CALLED = "muscle"
+CALLED, MODES, SIZE_IN_C = "muscle", "neural_modes", "c_kb"
 MAIN = """#include "muscle.h"
 #include <stdio.h>
 #include <time.h>
@@ -59,19 +62,30 @@ def weighed(predictor: Predictor, sampler: PairSampler, split: Split) -> dict[st
         save_model(predictor, Training(sampler.cases, split), place)
         told["onnx_kb"] = (place / NETWORK).stat().st_size / KILOBYTE
         told["onnx_ms"] = forward_milliseconds(load(place))
-        if predictor.name == "neural_modes":
+        if predictor.name == MODES:
             told |= in_c(place, Path(folder))
     return told
 
 
+def lacks_c(trial: Trial, told: Mapping[str, Any]) -> bool:
+    """Whether figures of a trial were taken where there was no compiler, and there is one now."""
+    weighed_in_c = trial.weighed and trial.method == MODES
+    return weighed_in_c and SIZE_IN_C not in told and found_compiler() is not None
+
+
+def found_compiler() -> str | None:
+    """Of C; None where there is none."""
+    return shutil.which("cc") or shutil.which("gcc")
+
+
 def in_c(model: Path, folder: Path) -> dict[str, float]:
     """Size and time of neural modes in plain C; nothing where there is no compiler."""
-    compiler = shutil.which("cc") or shutil.which("gcc")
+    compiler = found_compiler()
     if compiler is None:
         return {}
     muscle = read_low_rank(model)
     whole = reduced_muscle(muscle, Wanted("float", tolerance_mm=None, surface=False))
-    told = {"c_kb": whole.bytes / KILOBYTE}
+    told = {SIZE_IN_C: whole.bytes / KILOBYTE}
     with contextlib.suppress(InputError):
         told["c_int8_kb"] = reduced_muscle(muscle, Wanted("int8", WITHIN_MM, surface=False)).bytes / KILOBYTE
     for name, text in {**c_source(whole, CALLED).files, "main.c": MAIN}.items():

@@ -1,6 +1,7 @@
 """What `myograph train` is asked: a TOML file. docs/training.md has an example."""
 
 import json
+import os
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,8 @@ from myograph.ensemble.pairs.sampler import SENSOR_SEED, SENSORS, PairSampler, l
 from myograph.errors import InputError
 from myograph.files import write_whole
 
-RECORD = "train.json"
+RECORD, TRAINING = "train.json", "training"
+"""In the folder of a training: what is trained there, and the folder of its steps."""
 
 
 class TrainFile(Model):
@@ -89,23 +91,45 @@ def make_sampler(asked: TrainFile, cases: MuscleCases) -> PairSampler:
     return PairSampler(cases, sensors, asked.convention, asked.known, asked.asked)
 
 
-def claim_folder(out: Path, asked: TrainFile, cases: MuscleCases) -> None:
-    """Write down what is trained there; raise InputError where something else is."""
-    settings = asked.model_dump(mode="json", exclude={"store", "pairs", "training"})
-    wanted = {"data": cases.checksum, **settings}
-    path = out / RECORD
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        found = None
-    except (OSError, ValueError) as problem:
-        raise InputError(f"{path}: cannot be read: {problem}; choose another folder") from None
+def check_folder(out: Path, asked: TrainFile, cases: MuscleCases) -> None:
+    """Raise InputError unless that training is there, or nothing, and could be written; it only reads.
+
+    A folder without the record but with `training/` was left before the first step: what lies there checks itself.
+    """
+    found = _read_record(out)
     if found is None:
-        if out.exists() and (not out.is_dir() or any(out.iterdir())):
+        if out.exists() and (not out.is_dir() or any(_is_foreign(path) for path in out.iterdir())):
             raise InputError(f"{out}: expected a training or nothing, got something else; choose another folder")
-        write_whole(path, lambda file: file.write(json.dumps(wanted, indent=2).encode()))
+        nearest = next(place for place in (out, *out.parents) if place.exists())
+        if not nearest.is_dir() or not os.access(nearest, os.W_OK):
+            raise InputError(f"{out}: cannot be written, as {nearest} is none that can; choose another folder")
         return
-    for name, value in wanted.items():
+    for name, value in _record(asked, cases).items():
         if not isinstance(found, dict) or found.get(name) != value:
             was = found.get(name) if isinstance(found, dict) else found
             raise InputError(f"{out}: holds another training: {name} was {was}, now {value}; choose another folder")
+
+
+def claim_folder(out: Path, asked: TrainFile, cases: MuscleCases) -> None:
+    """Write down what is trained there, unless it is written already."""
+    path = out / RECORD
+    if not path.exists():
+        write_whole(path, lambda file: file.write(json.dumps(_record(asked, cases), indent=2).encode()))
+
+
+def _record(asked: TrainFile, cases: MuscleCases) -> dict[str, Any]:
+    return {"data": cases.checksum, **asked.model_dump(mode="json", exclude={"store", "pairs", "training"})}
+
+
+def _read_record(out: Path) -> Any:
+    path = out / RECORD
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except (OSError, ValueError) as problem:
+        raise InputError(f"{path}: cannot be read: {problem}; choose another folder") from None
+
+
+def _is_foreign(path: Path) -> bool:
+    return path.name != TRAINING and not path.name.startswith(f".{RECORD}-")

@@ -2,12 +2,16 @@
 
 import csv
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from myograph.cli.train.asked import TrainFile
+import typer
+
+from myograph.cli.train.asked import TRAINING, TrainFile
 from myograph.cli.train.progress import shown
+from myograph.ensemble.muscle_cases import MuscleCases
 from myograph.ensemble.pairs.predictor import Learner, Predictor
 from myograph.ensemble.pairs.protocols import Split
 from myograph.ensemble.pairs.sampler import PairSampler
@@ -16,30 +20,50 @@ from myograph.errors import MissingPackageError
 if TYPE_CHECKING:
     from myograph.learning.saving import Training
 
-TRAINING, MODEL = "training", "model"
+MODEL = "model"
 
 
-def asked_learner(asked: TrainFile, split: Split, out: Path, source: str) -> Learner:
-    """The method with its settings, calibrated where there are cases enough.
+def asked_learner(asked: TrainFile, cases: MuscleCases, split: Split, out: Path, source: str) -> Learner:
+    """The method with its settings, calibrated where there are cases enough; where there are not, that is said.
 
     Raises InputError for a wrong setting, and where torch is not installed.
     """
     try:
         from myograph.learning.learners import Asked, make_learner
-        from myograph.learning.trust.calibrated import enough
+        from myograph.learning.trust.calibrated import CalibratedLearner, enough
     except ModuleNotFoundError as missing:
         raise MissingPackageError(str(missing.name), "train", "training") from None
-    calibration = asked.calibration if enough(split, asked.calibration) else 0.0
-    return make_learner(Asked(asked.method, asked.options, asked.training, out / TRAINING, calibration, source))
+    wanted = Asked(asked.method, asked.options, asked.training, out / TRAINING, asked.calibration, source)
+    learner = make_learner(wanted)
+    if not isinstance(learner, CalibratedLearner) or enough(cases, split, learner.share, learner.seed):
+        return learner
+    if in_first_process():
+        typer.echo(
+            f"myograph: a share of {learner.share:g} holds out too few cases for 90 % intervals: all teach, and the "
+            "model has none",
+            err=True,
+        )
+    return learner.learner
 
 
-def fit(learner: Learner, sampler: PairSampler, split: Split, out: Path) -> tuple[Predictor, float]:
-    """The trained method and the time that training took [s], over all interrupts."""
+def fit(
+    learner: Learner, sampler: PairSampler, split: Split, out: Path, claim: Callable[[], None]
+) -> tuple[Predictor, float]:
+    """The trained method and the time that training took [s], over all interrupts.
+
+    `claim` is called, in the first process only, once something was learned: then all settings fit each other.
+    """
     if not in_first_process():
         return learner.fit(sampler, split), 0.0
     started = time.perf_counter()
     with shown(learner.name) as told:
-        predictor = learner.fit(sampler, split, told)
+
+        def learned(step: int, steps: int, rmse: float) -> None:
+            claim()
+            told(step, steps, rmse)
+
+        predictor = learner.fit(sampler, split, learned)
+    claim()
     return predictor, max(time.perf_counter() - started, _seconds_in_course(out / TRAINING / "course.csv"))
 
 

@@ -14,7 +14,7 @@ from typing import Annotated
 import typer
 
 from myograph.cli.options import Json, print_json
-from myograph.cli.train.asked import TrainFile, claim_folder, make_sampler, read_train_file
+from myograph.cli.train.asked import TrainFile, check_folder, claim_folder, make_sampler, read_train_file
 from myograph.cli.train.fitting import MODEL, asked_learner, fit, in_first_process, save
 from myograph.cli.train.judging import judge, table
 from myograph.ensemble.pairs.predictor import Predictor
@@ -71,10 +71,10 @@ def run_training(asked: TrainFile, store: Path, out: Path, source: str) -> Train
     """Train, judge and save; None in all processes but the first."""
     cases = read_muscle(store, asked.muscle)
     split = split_pairs(cases, asked.protocol, asked.split_seed)
-    learner = asked_learner(asked, split, out, source)
+    learner = asked_learner(asked, cases, split, out, source)
     sampler = make_sampler(asked, cases)
-    claim_folder(out, asked, cases)
-    predictor, seconds = fit(learner, sampler, split, out)
+    check_folder(out, asked, cases)
+    predictor, seconds = fit(learner, sampler, split, out, lambda: claim_folder(out, asked, cases))
     if not in_first_process():
         return None
     errors = judge(predictor, sampler, split, asked.split_seed, asked.pairs)

@@ -14,6 +14,7 @@ from jaxtyping import Float, Int
 from torch import Tensor, nn
 
 from myograph.ensemble.pairs.predictor import Progress
+from myograph.errors import InputError
 from myograph.learning.baselines.taught import Taught
 from myograph.learning.training import History, TrainingConfig, train
 from myograph.learning.training.drawing import share_of
@@ -94,8 +95,12 @@ class CaseTraining:
 def train_by_cases(
     module: nn.Module, taught: Taught, arguments: Arguments, nodes: Int[np.ndarray, " nodes"], how: Training
 ) -> History:
-    """Train the module in place; it is asked at `nodes` only."""
+    """Train the module in place; it is asked at `nodes` only. Raises InputError for patience without validation."""
     count = round(how.config.validation * len(taught))
+    if how.config.patience is not None and not count:
+        raise InputError(
+            f"patience: expected cases to validate on, got none of {len(taught)}; set a larger 'validation'"
+        )
     shuffled = np.random.default_rng((how.config.seed, 1)).permutation(len(taught))
     learned, validated = np.sort(shuffled[count:]), np.sort(shuffled[:count])
     spread = {name: spread_of(values) for name, values in taught.fields.items()}

@@ -19,6 +19,7 @@ from myograph.learning.baselines.deeponet_module import DeepONetConfig, DeepONet
 from myograph.learning.baselines.taught import Taught, taught, taught_cases
 from myograph.learning.torch_predictor import TorchPredictor
 from myograph.learning.training import TrainingConfig
+from myograph.learning.training.about import about
 
 DEEPONET_TRAINING = TrainingConfig(steps=4000, batch=64, queries=256, learning_rate=3e-3)
 
@@ -58,7 +59,7 @@ class DeepONet:
             told,
             _Asking(module, told, sensed),
             np.arange(cases.nodes),
-            Training(self.training, progress, self.folder, f"{cases.checksum} {split.protocol} {shape}"),
+            Training(self.training, progress, self.folder, about(sampler, split, shape.model_dump_json())),
         )
         signature = Signature(
             inputs=shape.inputs,

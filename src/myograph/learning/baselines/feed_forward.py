@@ -16,6 +16,7 @@ from myograph.learning.baselines.node_network import FeedForwardConfig, FeedForw
 from myograph.learning.baselines.taught import taught
 from myograph.learning.torch_predictor import TorchPredictor
 from myograph.learning.training import TrainingConfig
+from myograph.learning.training.about import about
 
 FEED_FORWARD_TRAINING = TrainingConfig(steps=2000, batch=32, queries=4096, learning_rate=2e-3)
 """All nodes of a body of 4,027 in every step."""
@@ -51,13 +52,12 @@ class FeedForward:
         module = NodeNetwork(shape, self.training.seed)
         module.fit_scaling(told, answered)
         activation = torch.from_numpy(told.activation.astype(np.float32))
-        about = f"{sampler.cases.checksum} {split.protocol} {shape.model_dump_json()}"
         train_by_cases(
             module,
             told,
             lambda cases, queries: (activation[cases], torch.from_numpy(queries)),
             answered,
-            Training(self.training, progress, self.folder, about),
+            Training(self.training, progress, self.folder, about(sampler, split, shape.model_dump_json())),
         )
         signature = Signature(inputs=("activation", "query_nodes"), outputs=shape.fields, convention=sampler.convention)
         return TorchPredictor(self.name, "feed_forward", module, signature, shape)

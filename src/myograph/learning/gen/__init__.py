@@ -2,12 +2,14 @@
 
 config              how a network is built; presets; the traps of the thesis's listings
 mesh                the graph's nodes and edges
+line                the same in one dimension
 graph               the graph in torch
 perceptron          layers with a nonlinearity between them
 representer         how points share in nodes: softmax, or barycentric coordinates
 barycentric         coordinates in the simplices of a triangulation
 graph_convolution   the processor 'gcn'
 processors          'mlp', 'mpnn', and the table of all
+precision           single precision within mixed
 geometric           PyTorch Geometric's convolutions
 network             the whole in the unit box, in a space of any dimension
 scaling             millimetres to the unit box and back

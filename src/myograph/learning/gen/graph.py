@@ -11,10 +11,10 @@ import numpy as np
 import torch
 from jaxtyping import Float, Int
 from scipy.sparse import csr_array
-from scipy.spatial import Delaunay
 from torch import Tensor
 
-from myograph.learning.gen.mesh import edges_of, normalised_adjacency, triangulate
+from myograph.learning.gen.mesh import Triangulation, edges_of, normalised_adjacency, triangulate
+from myograph.learning.gen.precision import single
 
 
 class _SymmetricProduct(torch.autograd.Function):
@@ -50,7 +50,7 @@ class Graph:
     sparse: Tensor
     dense: Float[Tensor, "nodes nodes"]
     neighbours: Float[Tensor, " nodes"]
-    triangulation: Delaunay
+    triangulation: Triangulation
 
     def __deepcopy__(self, _: Any) -> "Graph":
         """Itself: nothing in it ever changes, and torch cannot copy sparse matrices."""
@@ -64,11 +64,14 @@ class Graph:
         return Graph(edges, sparse, self.dense.to(device), self.neighbours.to(device), self.triangulation)
 
     def smooth(self, x: Float[Tensor, "nodes ..."]) -> Float[Tensor, "nodes ..."]:
-        """Product of the adjacency and x; differentiable in x."""
+        """Product of the adjacency and x, in single precision, as sparse ones have no other; differentiable in x."""
         flat = x.flatten(1)
-        if torch.compiler.is_compiling():
-            return (self.dense @ flat).view_as(x)
-        return _SymmetricProduct.apply(self.sparse, flat).view_as(x)  # pyright: ignore[reportAttributeAccessIssue]
+        if flat.dtype != self.dense.dtype:
+            flat = flat.to(self.dense.dtype)
+        with single(flat):
+            if torch.compiler.is_compiling():
+                return (self.dense @ flat).view_as(x)
+            return _SymmetricProduct.apply(self.sparse, flat).view_as(x)  # pyright: ignore[reportAttributeAccessIssue]
 
 
 def graph_of(nodes: Float[np.ndarray, "nodes axes"], corners: int | None = None) -> Graph:

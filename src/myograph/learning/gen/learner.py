@@ -19,6 +19,7 @@ from myograph.learning.gen.trainable import GenTrainable
 from myograph.learning.physics.terms import physics_terms
 from myograph.learning.torch_predictor import TorchPredictor
 from myograph.learning.training import History, TrainingConfig, train
+from myograph.learning.training.about import about
 from myograph.learning.training.drawing import hold_out
 
 SCALED_ON = 64
@@ -75,8 +76,8 @@ class GenLearner:
         taught, validated = hold_out(split.train, self.training.validation, self.training.seed)
         trainable = self._trainable(config, sampler, taught, validated)
         nodes_before = trainable.module.nodes_mm
-        about = f"{sampler.cases.checksum} {split.protocol} {sampler.sensors.tolist()} {config.model_dump_json()}"
-        history = train(trainable, self.training, progress, self.folder, about)
+        told = about(sampler, split, config.model_dump_json())
+        history = train(trainable, self.training, progress, self.folder, told)
         module = trainable.module.eval()
         module.network.triangulate()
         signature = _signature(
@@ -91,6 +92,11 @@ class GenLearner:
     def _trainable(
         self, config: NetworkConfig, sampler: PairSampler, taught: PairSet, validated: PairSet
     ) -> GenTrainable:
+        if self.training.compile and config.physics.volume:
+            raise InputError(
+                "compile: with physics.volume the loss has derivatives of derivatives, which torch.compile does not; "
+                "set volume to 0, or compile to false"
+            )
         features = tuple(dict.fromkeys(config.input_features + config.output_features))
         scaling = fit_scaling(sampler, taught, features, self.training.seed)
         module = MuscleGen(config, scaling, self.training.seed)

@@ -14,7 +14,9 @@ from scipy.sparse import coo_array, csr_array, eye_array
 from scipy.spatial import Delaunay, QhullError
 
 from myograph.errors import InputError
+from myograph.learning.gen.line import Line, line_through
 
+Triangulation = Delaunay | Line
 NOISE = 0.2
 """Standard deviation of a grid node's place over the grid spacing [-]."""
 
@@ -27,16 +29,16 @@ def grid_nodes(per_axis: int, sides: Float[np.ndarray, " axes"], seed: int) -> F
     return np.clip(grid + noise, 0, sides)
 
 
-def triangulate(nodes: Float[np.ndarray, "nodes axes"]) -> Delaunay:
-    """Delaunay triangulation; raises InputError where the nodes span no volume."""
+def triangulate(nodes: Float[np.ndarray, "nodes axes"]) -> Triangulation:
+    """Delaunay triangulation, neighbours on a line; raises InputError where the nodes span no volume."""
     try:
-        return Delaunay(nodes)
+        return line_through(nodes) if nodes.shape[1] == 1 else Delaunay(nodes)
     except (QhullError, ValueError) as problem:
         reason = str(problem).strip().splitlines()[0]
         raise InputError(f"graph of {len(nodes)} nodes: expected nodes that span a volume: {reason}") from None
 
 
-def edges_of(triangulation: Delaunay, corners: int | None = None) -> Int[np.ndarray, "edges 2"]:
+def edges_of(triangulation: Triangulation, corners: int | None = None) -> Int[np.ndarray, "edges 2"]:
     """Edges (smaller index, larger index) between all corners of each simplex, each once.
 
     A node that falls together with another, which Qhull leaves out, is joined to its nearest corner.
@@ -46,7 +48,8 @@ def edges_of(triangulation: Delaunay, corners: int | None = None) -> Int[np.ndar
     corners
         Only so many corners of each simplex are looked at: 3 is the trap.
     """
-    looked_at = range(triangulation.simplices.shape[1] if corners is None else corners)
+    known = triangulation.simplices.shape[1]
+    looked_at = range(known if corners is None else min(corners, known))
     pairs = [triangulation.simplices[:, two] for two in combinations(looked_at, 2)]
     left_out = triangulation.coplanar[:, [0, 2]]
     return np.unique(np.sort(np.concatenate([*pairs, left_out]), axis=1), axis=0).astype(np.int64)

@@ -16,6 +16,7 @@ from myograph.learning.gen.affine import affine_map
 from myograph.learning.gen.config import NetworkConfig
 from myograph.learning.gen.features import MOVED, feature_of, field_of, width_of
 from myograph.learning.gen.network import GraphElementNetwork, Samples
+from myograph.learning.gen.precision import single
 from myograph.learning.gen.scaling import Scaling
 
 PART = "sensor_{}_target"
@@ -90,9 +91,10 @@ class MuscleGen(nn.Module):
         return torch.cat(answers, dim=-1)
 
     def known_part(self, parts: dict[str, Tensor]) -> Float[Tensor, "batch queries 3"]:
-        """Displacements by the affine map that suits the sensors best [mm]."""
+        """Displacements by the affine map that suits the sensors best [mm], in single precision."""
         before, after = parts["sensor_position_initial"], parts["sensor_position_target"]
-        return affine_map(before, after - before, parts["query_position_initial"])
+        with single(before):
+            return affine_map(before, after - before, parts["query_position_initial"])
 
     def wanted(self, parts: dict[str, Tensor], truth: dict[str, Tensor]) -> Float[Tensor, "batch queries width"]:
         """What `scaled` should be, where the target case is known [-]."""

@@ -28,6 +28,7 @@ from myograph.learning.gen.config import NetworkConfig
 from myograph.learning.gen.graph import graph_of
 from myograph.learning.gen.mesh import grid_nodes
 from myograph.learning.gen.perceptron import ModulatedPerceptron, perceptron
+from myograph.learning.gen.precision import single
 from myograph.learning.gen.processors import processor
 from myograph.learning.gen.representer import DenseShares, Shares, nearest_shares, scores
 
@@ -113,11 +114,12 @@ class GraphElementNetwork(nn.Module):
         self.graph = graph_of(self.nodes.detach().cpu().double().numpy(), corners)
 
     def shares(self, points: Float[Tensor, "batch points axes"]) -> Shares:
-        """Shares of points of the box in the graph's nodes."""
-        if self.config.representer == "barycentric":
-            return barycentric_shares(points, self.nodes, self.graph.triangulation)
-        sign = -1.0 if self.config.traps.legacy_sign else 1.0
-        scored = scores(points, self.nodes, sign * self.log_sharpness.exp())
+        """Shares of points of the box in the graph's nodes, from places in single precision."""
+        with single(points):
+            if self.config.representer == "barycentric":
+                return barycentric_shares(points, self.nodes, self.graph.triangulation)
+            sign = -1.0 if self.config.traps.legacy_sign else 1.0
+            scored = scores(points, self.nodes, sign * self.log_sharpness.exp())
         if self.config.representer == "nearest":
             return nearest_shares(scored, self.config.nearest)
         return DenseShares(scored, self.config.traps.legacy_axis)

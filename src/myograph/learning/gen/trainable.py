@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 import torch
 from jaxtyping import Float, Int
-from torch import Tensor
+from scipy.spatial import Delaunay
+from torch import Tensor, nn
 
 from myograph.ensemble.pairs.protocols import PairSet
 from myograph.ensemble.pairs.question import Batch, Question
@@ -47,6 +48,10 @@ class GenTrainable:
     validated: PairSet
     config: TrainingConfig
     physics: PhysicsTerms | None = None
+
+    def compiled(self) -> nn.Module:
+        """The network: the module around it is asked for scaled values by a method of its own."""
+        return self.module.network
 
     def parameter_groups(self, rate: float) -> list[dict[str, Any]]:
         """Weights, the processor's weights, and what neither decays nor is a weight: sharpness and node positions."""
@@ -97,8 +102,9 @@ class GenTrainable:
 
     def mesh(self) -> tuple[Float[np.ndarray, "nodes 3"], Int[np.ndarray, "triangles 3"]]:
         """Nodes [mm] and the triangles around them."""
-        hull = self.module.network.graph.triangulation.convex_hull
-        return self.module.nodes_mm, hull.astype(np.int64)
+        triangulation = self.module.network.graph.triangulation
+        assert isinstance(triangulation, Delaunay)
+        return self.module.nodes_mm, triangulation.convex_hull.astype(np.int64)
 
     def tensors(self, batch: Batch) -> tuple[Parts, Parts]:
         """Parts of the question and the right fields, where the module is."""
@@ -123,7 +129,8 @@ class GenTrainable:
         share, sensors = self.module.config.dropout, parts["sensor_places"].shape[1]
         if generator.random() < share:
             return {name: part[:, :0] if name.startswith("sensor_") else part for name, part in parts.items()}
-        forgotten = torch.from_numpy(generator.random(len(parts["activation"])) < share).to(parts["activation"].device)
+        forgotten = torch.from_numpy(share_of(generator.random(self.config.batch)) < share)
+        forgotten = forgotten.to(parts["activation"].device)
         activation = parts["activation"].masked_fill(forgotten[:, None], torch.nan)
         if self.module.config.aggregation == "mean":
             kept = torch.from_numpy(generator.permutation(sensors)[: generator.integers(1, sensors + 1)])

@@ -5,6 +5,7 @@ config       how
 loop         the loop
 drawing      batches, and pairs held out, as most trainables want them
 checkpoint   what is on disk; resuming
+about        what must be the same for that
 logs         what is written beside it
 """
 

@@ -9,7 +9,8 @@ number of the step.
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +19,9 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save
 from torch import Tensor
 
+from myograph.ensemble.store.lock import locked
 from myograph.errors import InputError
-from myograph.files import write_whole
+from myograph.files import refusing, write_whole
 from myograph.learning.training.history import COLUMNS
 from myograph.learning.training.run import Run
 
@@ -29,22 +31,45 @@ FREE = frozenset({"checkpoint_every", "log_every", "tensorboard", "histogram_eve
 """Settings that may change on the way: they change nothing that is computed, or only the last digits."""
 
 
-def open_folder(folder: Path, run: Run, about: str) -> None:
-    """Go on with what the folder holds, or begin there.
+@contextmanager
+def held(folder: Path, run: Run, about: str) -> Iterator[None]:
+    """Hold the folder, and go on with what it holds, or begin there: the first process does, all others follow it.
 
-    Raises InputError for a folder of another training, or of something else, and for a damaged checkpoint.
+    Raises InputError, in all processes, for a folder of another training, or of something else, for a damaged
+    checkpoint, and where another training is at work there.
     """
-    path = folder / FILE
-    if run.fabric.is_global_zero:
+    with ExitStack() as stack:
+        refused = _taken(folder, run, about, stack) if run.fabric.is_global_zero else None
+        refused = run.fabric.broadcast(refused)
+        if refused is not None:
+            raise InputError(refused)
+        if not run.fabric.is_global_zero:
+            resume(folder / FILE, run, about)
+        yield
+
+
+def _taken(folder: Path, run: Run, about: str, stack: ExitStack) -> str | None:
+    """Lock, sweep and open the folder; why it cannot be, if so. What is no training is left as it is."""
+    try:
+        if not (folder / FILE).is_file():
+            _check_free(folder)
+        with refusing(folder):
+            folder.mkdir(parents=True, exist_ok=True)
+        stack.enter_context(locked(folder, run.step))
         for lost in folder.glob(f".{FILE}-*"):
             lost.unlink(missing_ok=True)
-    if path.is_file():
-        resume(path, run, about)
-        return
+        if (folder / FILE).is_file():
+            resume(folder / FILE, run, about)
+        else:
+            write_checkpoint(folder, run, about)
+    except InputError as problem:
+        return str(problem)
+    return None
+
+
+def _check_free(folder: Path) -> None:
     if folder.exists() and (not folder.is_dir() or any(not found.name.startswith(".") for found in folder.iterdir())):
         raise InputError(f"{folder}: expected a training or nothing, got something else; choose another place")
-    if run.fabric.is_global_zero:
-        write_checkpoint(folder, run, about)
 
 
 def write_checkpoint(folder: Path, run: Run, about: str) -> None:

@@ -8,6 +8,7 @@ A training that goes on writes the steps of its checkpoint first: rows of steps 
 
 import csv
 import math
+from contextlib import ExitStack, nullcontext, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import torch
 
 from myograph.errors import InputError, MissingPackageError
+from myograph.files import refusing
 from myograph.learning.training.history import StepRecord
 from myograph.learning.training.run import Run
 from myograph.learning.training.trainable import HasMesh
@@ -36,45 +38,64 @@ class CourseLog:
 
     def __enter__(self) -> "CourseLog":
         if self._folder is not None:
-            self._open(self._folder)
+            try:
+                self._open(self._folder)
+            except InputError:
+                with suppress(InputError):
+                    self._close(self._folder)
+                raise
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, problem: BaseException | None, trace: TracebackType | None
     ) -> None:
-        for opened in (self._file, self._board):
-            if opened is not None:
-                opened.close()
+        if self._folder is not None:
+            with suppress(InputError) if problem is not None else nullcontext():
+                self._close(self._folder)
 
     def add(self, record: StepRecord) -> None:
-        """Write the step that was just done."""
-        if self._file is None:
+        """Write the step that was just done; raises InputError where there is no room for it."""
+        if self._folder is None:
             return
         step, config = self._run.step, self._run.config
         if step % config.log_every == 0:
-            self._write(step, record)
-            if self._board is not None:
-                _add_scalars(self._board, step, record)
-        if self._board is not None and step % config.histogram_every == 0:
-            _add_shapes(self._board, step, self._run)
+            with refusing(self._folder / FILE):
+                self._write(step, record)
+        if self._board is not None:
+            with refusing(self._folder / BOARD):
+                self._show(self._board, step, record)
 
     def _open(self, folder: Path) -> None:
-        try:
+        with refusing(folder / FILE):
             folder.mkdir(parents=True, exist_ok=True)
             self._file = (folder / FILE).open("w", encoding="utf-8", newline="", buffering=1)
-        except OSError as problem:
-            raise InputError(f"{folder / FILE}: cannot be written: {problem.strerror}") from None
-        csv.writer(self._file).writerow(HEAD)
-        for step, record in enumerate(self._run.course.records, start=1):
-            if step % self._run.config.log_every == 0:
-                self._write(step, record)
+            csv.writer(self._file).writerow(HEAD)
+            for step, record in enumerate(self._run.course.records, start=1):
+                if step % self._run.config.log_every == 0:
+                    self._write(step, record)
         if self._run.config.tensorboard:
-            self._board = _board(folder / BOARD, self._run.step)
+            with refusing(folder / BOARD):
+                self._board = _board(folder / BOARD, self._run.step)
+
+    def _close(self, folder: Path) -> None:
+        """Close what is open; what waits to be written may find no room yet."""
+        with ExitStack() as opened:
+            for name, writer in ((FILE, self._file), (BOARD, self._board)):
+                if writer is not None:
+                    opened.enter_context(refusing(folder / name))
+                    opened.callback(writer.close)
 
     def _write(self, step: int, record: StepRecord) -> None:
         validation = "" if math.isnan(record.validation) else record.validation
         row = (step, record.loss, record.rmse, record.rate, validation, record.elapsed)
         csv.writer(self._file).writerow(row)
+
+    def _show(self, board: "SummaryWriter", step: int, record: StepRecord) -> None:
+        config = self._run.config
+        if step % config.log_every == 0:
+            _add_scalars(board, step, record)
+        if step % config.histogram_every == 0:
+            _add_shapes(board, step, self._run)
 
 
 def _board(folder: Path, steps_done: int) -> "SummaryWriter":

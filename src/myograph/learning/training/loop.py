@@ -9,8 +9,7 @@ from pathlib import Path
 import torch
 
 from myograph.ensemble.pairs.predictor import Progress
-from myograph.ensemble.store.lock import locked
-from myograph.learning.training.checkpoint import open_folder, write_checkpoint
+from myograph.learning.training.checkpoint import held, write_checkpoint
 from myograph.learning.training.config import TrainingConfig
 from myograph.learning.training.history import History
 from myograph.learning.training.logs import CourseLog
@@ -45,10 +44,8 @@ def train(
         stack.enter_context(torch.random.fork_rng(devices=[fabric.device] if fabric.device.type == "cuda" else []))
         run = Run(trainable, config, fabric)
         if folder is not None:
-            open_folder(folder, run, about)
+            stack.enter_context(held(folder, run, about))
         writes = folder if fabric.is_global_zero else None
-        if writes is not None:
-            stack.enter_context(locked(writes, run.step))
         log = stack.enter_context(CourseLog(writes, run))
         stopped = run.stopped()
         while stopped is None:

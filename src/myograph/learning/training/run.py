@@ -16,7 +16,7 @@ from myograph.learning.training.config import TrainingConfig
 from myograph.learning.training.history import Course, StepRecord, Stop
 from myograph.learning.training.processes import set_up
 from myograph.learning.training.schedule import rate_at
-from myograph.learning.training.trainable import Trainable
+from myograph.learning.training.trainable import NamesCompiled, Trainable
 
 BETAS = (0.9, 0.95)
 """Memory of Adam; that of the gradients' size is short, as the training is."""
@@ -43,8 +43,9 @@ class Run:
     def __init__(self, trainable: Trainable, config: TrainingConfig, fabric: Fabric) -> None:
         self.trainable, self.config, self.fabric = trainable, config, fabric
         self.module = trainable.module.train()
+        self._compiled = trainable.compiled() if isinstance(trainable, NamesCompiled) else self.module
         if config.compile:
-            self.module.compile()
+            self._compiled.compile()
         groups = trainable.parameter_groups(config.learning_rate)
         fused = config.precision != "16-mixed"
         self.optimiser = torch.optim.AdamW(groups, betas=BETAS, weight_decay=config.weight_decay, fused=fused)
@@ -92,11 +93,15 @@ class Run:
         return record
 
     def settle(self) -> None:
-        """Give the module the weights to keep (the best, or the averaged, or the last) and take it off its device."""
+        """Give the module the weights to keep (the best, or the averaged, or the last) and take it off its device.
+
+        What was compiled is plain again: elsewhere, and asked in other numbers, it would be compiled anew.
+        """
         if self.best.weights:
             self.module.load_state_dict(self.best.weights)
         elif self.average is not None:
             self.average.settle()
+        self._compiled._compiled_call_impl = None
         self.module.cpu().eval()
 
     def scaler_state(self) -> dict[str, Any]:

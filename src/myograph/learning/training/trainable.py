@@ -49,6 +49,18 @@ class Trainable(Protocol):
 
 
 @runtime_checkable
+class NamesCompiled(Protocol):
+    """A trainable whose loss does not call its module, but a part of it.
+
+    Trap: `nn.Module.compile` makes a module's call faster and no other of its methods.
+    """
+
+    def compiled(self) -> nn.Module:
+        """What the loss calls: what `compile = true` is for."""
+        ...
+
+
+@runtime_checkable
 class HasMesh(Protocol):
     """A trainable whose graph can be shown as it moves."""
 

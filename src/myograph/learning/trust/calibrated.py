@@ -19,12 +19,12 @@ from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.errors import InputError
 from myograph.inference.ways import Way, scales_of
 from myograph.learning.torch_predictor import TorchPredictor
-from myograph.learning.trust.conformal import conformal_factor
+from myograph.learning.trust.conformal import conformal_factor, promises
 from myograph.learning.trust.nearness import Nearness, nearness
 from myograph.learning.trust.scores import Scores, deviation_of, residual_of, scores, ways_of
 
 LEAST_CASES = 9
-"""Cases of equal weight from which on 90 % can be promised."""
+"""Cases of equal weight from which on 90 % can be promised; of unequal weight it takes more."""
 RESIDUAL_LEVEL = 0.99
 """Share of the calibration cases whose sensor residual is inside."""
 CONSERVATIVE = 1.5
@@ -105,14 +105,24 @@ class CalibratedLearner:
         return self.learner.name
 
     def fit(self, sampler: PairSampler, split: Split, progress: Progress | None = None) -> CalibratedPredictor:
-        """Learn and calibrate; raises InputError where too few cases are left for either."""
+        """Learn and calibrate; raises InputError, before it learns, where too few cases are left for either."""
         rest, held_out = hold_out(sampler.cases, split, self.share, self.seed)
+        if not promises(edge_weights(sampler.cases.activation[held_out])):
+            raise InputError(
+                f"calibration: expected cases enough for 90 %, such as 9 of equal weight, got {len(held_out)}; "
+                "hold out a larger share, or none"
+            )
         return calibrate(self.learner.fit(sampler, rest, progress), sampler, rest, held_out, self.seed)
 
 
-def enough(split: Split, share: float) -> bool:
-    """Whether that share of the training cases is enough to calibrate on, as `conformal_factor` needs it."""
-    return round(share * len(split.train.cases)) >= LEAST_CASES
+def enough(cases: MuscleCases, split: Split, share: float, seed: int = 0) -> bool:
+    """Whether the cases that `hold_out` would draw can be calibrated on, by the weights that `calibrate` gives them.
+
+    Raises InputError where these leave no training cases beside them.
+    """
+    if round(share * len(split.train.cases)) < LEAST_CASES:
+        return False
+    return promises(edge_weights(cases.activation[hold_out(cases, split, share, seed)[1]]))
 
 
 def hold_out(cases: MuscleCases, split: Split, share: float, seed: int) -> tuple[Split, Int[np.ndarray, " held_out"]]:

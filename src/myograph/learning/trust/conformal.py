@@ -34,7 +34,7 @@ def conformal_factor(
     cases, nodes = errors.shape
     each = np.ones(cases) if weights is None else weights
     total = float(each.sum() + each.max(initial=0.0))
-    if not 0 < level < 1 or each.sum() < level * total * (1 - ROUNDING):
+    if not promises(each, level):
         raise InputError(
             f"conformal intervals at level {level:g}: expected a level between 0 and 1 and cases enough for it, "
             f"such as 9 of equal weight for 0.9, got {cases}; hold out more cases"
@@ -46,3 +46,9 @@ def conformal_factor(
     held = np.cumsum(np.repeat(each / nodes, nodes)[order])
     first = int(np.searchsorted(held, level * total * (1 - ROUNDING)))
     return float(scores.ravel()[order[min(first, scores.size - 1)]])
+
+
+def promises(weights: Float[np.ndarray, " cases"], level: float = LEVEL) -> bool:
+    """Whether cases of these weights are enough for that level: W >= level (W + max w)."""
+    total = float(weights.sum() + weights.max(initial=0.0))
+    return 0 < level < 1 and bool(weights.sum() >= level * total * (1 - ROUNDING))
