@@ -56,6 +56,8 @@ class Case:
         object.__setattr__(self, "activations", checked)
         if not math.isfinite(self.hand_load):
             raise InputError(f"load at the hand: expected a number of newtons, got {self.hand_load!r}")
+        if self.elbow_angle is not None and not math.isfinite(self.elbow_angle):
+            raise InputError(f"elbow angle: expected a finite number or none, got {self.elbow_angle!r}")
 
 
 @dataclass(frozen=True)

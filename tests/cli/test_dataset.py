@@ -12,10 +12,11 @@ pytest.importorskip("matplotlib", reason="plots need matplotlib")
 pytest.importorskip("h5py", reason="exports need h5py")
 
 from myograph.cli.dataset import app, pictures
+from myograph.ensemble.store import reading
 from myograph.ensemble.store.lock import locked
 from myograph.ensemble.store.opening import open_muscle
 from myograph.ensemble.store.reading import read_muscle
-from myograph.ensemble.store.rows import Row, write_row
+from myograph.ensemble.store.rows import Row, row_path, write_row
 from myograph.errors import InputError
 from tests.ensemble.filled import filled_store
 
@@ -100,6 +101,24 @@ def test_the_time_of_a_case_in_vtkhdf_is_its_number(store, tmp_path, capsys):
     with h5py.File(tmp_path / "out") as file:
         times = file["VTKHDF/Steps/Values"][:]
     assert times.tolist() == np.flatnonzero(open_muscle(store, "biceps")["state"] == "done").tolist()
+
+
+def test_a_case_that_is_answered_while_it_is_exported_does_not_shift_the_numbers(tmp_path, capsys, monkeypatch):
+    import h5py
+
+    store = filled_store(tmp_path / "store", count=4)
+    row = row_path(store, 0).read_bytes()
+    row_path(store, 0).unlink()
+    told = reading.provenance
+
+    def answered(path):
+        row_path(store, 0).write_bytes(row)
+        return told(path)
+
+    monkeypatch.setattr(reading, "provenance", answered)
+    called(capsys, "export", store, "--to", "vtkhdf", "--muscle", "biceps", "--out", tmp_path / "out")
+    with h5py.File(tmp_path / "out") as file:
+        assert file["VTKHDF/Steps/Values"][:].tolist() == [1, 2, 3]
 
 
 def test_plaid_goes_into_a_folder(tmp_path, capsys):

@@ -3,8 +3,7 @@
 from myograph.ensemble.design import DesignSpec, make_design
 from myograph.ensemble.simulators import make_simulator
 from myograph.ensemble.store.making import make_store, plan_store
-from myograph.ensemble.store.rows import write_failure
-from myograph.ensemble.store.writing import write_solution
+from myograph.ensemble.store.writing import write_failure, write_solution
 from myograph.errors import MyographError
 from tests.ensemble import synthetic
 
@@ -19,5 +18,5 @@ def filled_store(path, count=12, muscles=("biceps", "triceps"), **simulator):
         try:
             write_solution(path, plan, number, answer(case))
         except MyographError as problem:
-            write_failure(path, number, problem)
+            write_failure(path, plan, number, problem)
     return path

@@ -13,7 +13,7 @@ class RunConfig(Model):
     """How to run; none of it changes what is computed."""
 
     workers: int | None = Field(default=None, ge=1)
-    time_limit_s: float | None = Field(default=None, gt=0)
+    time_limit_s: float | None = Field(default=None, gt=0, allow_inf_nan=False)
 
 
 class EnsembleConfig(Model):

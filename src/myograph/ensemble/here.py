@@ -4,12 +4,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from myograph.case import Simulator
-from myograph.ensemble.store.aside import sweep
+from myograph.ensemble.store.aside import sweep, writing_to
 from myograph.ensemble.store.lock import locked
 from myograph.ensemble.store.plan import read_plan
-from myograph.ensemble.store.rows import states, write_failure
+from myograph.ensemble.store.rows import states
 from myograph.ensemble.store.summary import write_summary
-from myograph.ensemble.store.writing import write_solution
+from myograph.ensemble.store.writing import write_failure, write_solution
 from myograph.errors import InputError
 
 
@@ -26,19 +26,16 @@ def compute_here(store: Path, simulator: Simulator, advance: Callable[[], None] 
             "run it with 'myograph ensemble run'"
         )
     found = states(store, plan.size)
-    with locked(store, sum(state is not None for state in found)):
-        try:
-            sweep(store)
-            for number, case in enumerate(plan.design.cases):
-                if found[number] is not None:
-                    continue
-                try:
-                    solution = simulator(case)
-                except Exception as problem:
-                    write_failure(store, number, problem)
-                else:
-                    write_solution(store, plan, number, solution)
-                advance()
-            write_summary(store, plan)
-        except OSError as problem:
-            raise InputError(f"{store}: cannot be written ({problem.strerror}); free some room") from None
+    with locked(store, sum(state is not None for state in found)), writing_to(store):
+        sweep(store)
+        for number, case in enumerate(plan.design.cases):
+            if found[number] is not None:
+                continue
+            try:
+                solution = simulator(case)
+            except Exception as problem:
+                write_failure(store, plan, number, problem)
+            else:
+                write_solution(store, plan, number, solution)
+            advance()
+        write_summary(store, plan)

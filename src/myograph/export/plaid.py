@@ -39,6 +39,7 @@ def write_plaid(out: Path, cases: MuscleCases, numbers: Sequence[int]) -> int:
     Raises InputError for a body without elements and for a folder of something else; MissingPackageError without
     pyplaid.
     """
+    assert len(numbers) == len(cases)
     plaid, storage = _packages()
     if not len(cases.body.cells):
         raise InputError(f"{cases.muscle}: expected a body of elements, which PLAID needs, got none")

@@ -30,6 +30,7 @@ class Step:
 
 def steps_of_cases(cases: MuscleCases, times: Sequence[float] | None = None) -> Iterator[Step]:
     """A step for each case of one muscle, read one after the other; without `times` they are numbered from 0."""
+    assert times is None or len(times) == len(cases)
     for case in range(len(cases)):
         chosen = np.array([case])
         values = {name: cases.values(name, chosen)[0] for name in cases.fields}

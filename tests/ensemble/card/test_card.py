@@ -11,11 +11,12 @@ from myograph.ensemble.card.ranges import distribution, muscle_scalars
 from myograph.ensemble.card.text import card_text
 from myograph.ensemble.card.writing import CARD, add_cost, write_card
 from myograph.ensemble.store.checking import store_checksum
-from myograph.ensemble.store.chunks import chunk_path
+from myograph.ensemble.store.chunks import case_shape, chunk_path, encode
 from myograph.ensemble.store.opening import open_muscle
 from myograph.ensemble.store.plan import read_plan
 from myograph.ensemble.store.rows import Row, row_path, write_row
 from myograph.errors import InputError
+from myograph.export.csv import write_csv
 from tests.ensemble.filled import filled_store
 
 
@@ -122,5 +123,25 @@ def test_a_distribution_counts_every_node_of_every_case_once(own):
 def test_a_store_without_its_reference_body_is_refused(own):
     plan = read_plan(own)
     (own / "biceps" / "zarr.json").write_text("rubbish")
-    with pytest.raises(InputError, match="'biceps' cannot be read"):
+    with pytest.raises(InputError, match=r"biceps/zarr\.json: not the bytes that were written"):
         muscle_scalars(own, plan, "biceps")
+
+
+def put_another_chunk(store, field, case):
+    """Finite numbers of the right shape that are not those of the case."""
+    chunk_path(store, "biceps", field, case).write_bytes(encode(field, np.ones(case_shape(field, 60)), 60))
+
+
+def test_a_chunk_that_is_sound_and_not_the_one_that_was_written_is_left_out_and_counted(own):
+    put_another_chunk(own, "von_mises", 1)
+    facts = gather_facts(own)
+    assert facts.unreadable == 1
+    assert facts.fields["biceps"]["von_mises"].least == open_muscle(own, "biceps")["von_mises"].values[[0, 2]].min()
+
+
+def test_distributions_and_csv_refuse_a_chunk_that_is_not_the_one_that_was_written(own, tmp_path):
+    put_another_chunk(own, "pressure", 2)
+    with pytest.raises(InputError, match=r"case 2, biceps/pressure: not the bytes that were written; .*--repair"):
+        distribution(muscle_scalars(own, read_plan(own), "biceps"), {"a": [0, 2]}, "pressure", 7)
+    with pytest.raises(InputError, match="case 2, biceps/pressure: not the bytes"):
+        write_csv(tmp_path / "cases.csv", own)

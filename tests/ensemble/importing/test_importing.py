@@ -217,6 +217,7 @@ def spoil(folder, what):
     tabled = {
         "range": ("1.0,2.5", "1.5,2.5", "line 4: activation of biceps: expected a number in [0, 1], got 1.5"),
         "word": ("0.5,0", "much,0", "line 3: could not convert string to float"),
+        "angle": ("45,b", "nan,b", "line 3: elbow angle: expected a finite number or none, got nan"),
         "short": ("0.5,0,grid,45,b", "0.5,0,grid", "line 3: expected 5 columns"),
         "twice": ("1.0,2.5,grid,60", "0.5,0,grid,45", "expected every case once"),
         "empty": (TABLE[TABLE.index("\n") :], "\n", "expected at least one case, got none"),
@@ -252,6 +253,7 @@ def spoil(folder, what):
         "bare",
         "range",
         "word",
+        "angle",
         "short",
         "twice",
         "empty",

@@ -8,6 +8,7 @@ from myograph.ensemble.card.writing import CARD
 from myograph.ensemble.running import run
 from myograph.ensemble.store.chunks import chunk_path
 from myograph.ensemble.store.rows import Row, row_path, write_row
+from myograph.errors import InputError
 from tests.ensemble.filled import filled_store
 
 
@@ -26,6 +27,16 @@ def test_a_run_writes_the_card_and_what_it_cost(own, monkeypatch):
     assert "s in 1 runs" in text
     run.run_store(own, run.RunOptions(workers=1))
     assert (own / CARD).read_text() == text
+
+
+@pytest.mark.parametrize("step", ["sweep", "write_summary", "write_card"])
+def test_a_disk_that_is_full_at_the_start_or_at_the_end_is_one_line(own, monkeypatch, step):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(run, step, full)
+    with pytest.raises(InputError, match=r"own: cannot be written \(No space left on device\); free some room"):
+        run.run_store(own, run.RunOptions(workers=1))
 
 
 @pytest.mark.parametrize("again", [True, False])

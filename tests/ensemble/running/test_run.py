@@ -4,6 +4,7 @@ import os
 import subprocess
 import threading
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -128,6 +129,12 @@ def test_a_full_disk_stops_the_run_says_so_and_nothing_is_half_written(make, tmp
             run_store(store, RunOptions(workers=2))
         done = len(list((store / "rows").iterdir()))
         assert 0 < done < 200
+        with (place / "rest").open("wb", buffering=0) as rest, suppress(OSError):
+            while True:
+                rest.write(bytes(4096))
+        with pytest.raises(InputError, match="No space left on device"):
+            run_store(store, RunOptions(workers=2))
+        (place / "rest").unlink()
         subprocess.run(["mount", "-o", "remount,size=8m", place], check=True)
         assert run_store(store, RunOptions(workers=2))["done"] == 200
         assert not list(check_store(store, read_plan(store)))
@@ -141,6 +148,8 @@ def test_a_full_disk_stops_the_run_says_so_and_nothing_is_half_written(make, tmp
         ({"workers": 0}, "workers: expected at least 1"),
         ({"seconds": 0.0}, "time limit: expected a positive"),
         ({"seconds": float("nan")}, "time limit: expected a positive"),
+        ({"seconds": float("inf")}, "time limit: expected a positive"),
+        ({"seconds": 1e30}, "time limit: expected a positive"),
         ({"retries": -1}, "retries: expected at least 0"),
     ],
 )
@@ -155,6 +164,15 @@ def test_a_scheduler_that_is_not_there_or_two_places_to_run_are_refused(make, tm
         run_store(store, RunOptions(scheduler="tcp://127.0.0.1:1", slurm=tmp_path))
     with pytest.raises(InputError, match=r"scheduler tcp://127.0.0.1:1: does not answer"):
         run_store(store, RunOptions(scheduler="tcp://127.0.0.1:1"))
+
+
+@pytest.mark.parametrize(
+    ("given", "word"), [({"memory": "4 lots"}, "memory 4 lots"), ({"interface": "eth77"}, "eth77")]
+)
+def test_memory_or_an_interface_that_there_cannot_be_is_refused(given, word):
+    pytest.importorskip("dask_jobqueue.slurm")
+    with pytest.raises(InputError, match=f"SLURM: expected memory such as '4 GB' and a known interface, got .*{word}"):
+        slurm_cluster(SlurmConfig(jobs=1, **given))
 
 
 def test_a_slurm_configuration_becomes_the_script_of_a_job(monkeypatch):

@@ -3,6 +3,7 @@
 import errno
 import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from myograph.ensemble.pairs.sampler import random_sensors
 from myograph.ensemble.simulators import make_simulator
 from myograph.ensemble.store import aside
 from myograph.ensemble.store.chunks import chunk_path, decode, encode
-from myograph.ensemble.store.lock import is_locked, locked
+from myograph.ensemble.store.lock import RUNNER, is_locked, locked
 from myograph.ensemble.store.opening import open_cases, open_muscle, reasons
 from myograph.ensemble.store.plan import PLAN, read_plan
 from myograph.ensemble.store.rows import Row, read_row, row_path, write_row
@@ -190,6 +191,14 @@ def test_a_second_one_cannot_have_the_store_until_the_first_is_gone(make):
             pass
     assert not is_locked(store)
     with locked(store, 0):
+        pass
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="only Linux has a device that is always full")
+def test_a_store_whose_lock_has_no_room_is_an_input_error(make):
+    store = make()
+    (store / RUNNER).symlink_to("/dev/full")
+    with pytest.raises(InputError, match="store: cannot be written"), locked(store, 0):
         pass
 
 

@@ -3,13 +3,11 @@
 from pathlib import Path
 from typing import Annotated, Literal
 
-import numpy as np
 import typer
 
 from myograph.cli.dataset.info import Store
 from myograph.cli.options import Json, print_json
-from myograph.ensemble.store.opening import open_cases
-from myograph.ensemble.store.reading import read_muscle
+from myograph.ensemble.store.reading import read_numbered
 from myograph.errors import InputError
 from myograph.export.csv import write_csv
 from myograph.export.plaid import write_plaid
@@ -32,8 +30,7 @@ def export(
     if muscle is None:
         count = write_csv(out, store)
     else:
-        cases = read_muscle(store, muscle)
-        numbers = np.flatnonzero(open_cases(store)["state"].values == "done").tolist()
+        cases, numbers = read_numbered(store, muscle)
         if to == "vtkhdf":
             count = write_vtkhdf(out, {muscle: cases.body}, steps_of_cases(cases, numbers))
         else:

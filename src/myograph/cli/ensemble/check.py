@@ -5,9 +5,10 @@ from typing import Annotated
 
 import typer
 
-from myograph.cli.ensemble.compute import Where, Workers, compute
+from myograph.cli.ensemble.compute import Tables, Where, Workers, compute, run_options
 from myograph.cli.options import Json, print_json
 from myograph.ensemble.simulators import make_bodies
+from myograph.ensemble.store.aside import writing_to
 from myograph.ensemble.store.checking import Problem, check_store
 from myograph.ensemble.store.lock import locked
 from myograph.ensemble.store.plan import read_plan
@@ -19,6 +20,7 @@ def check(
     store: Annotated[Path, typer.Argument(help="Folder of the store.")],
     repair: Annotated[bool, typer.Option("--repair", help="Compute damaged and missing cases again.")] = False,
     workers: Workers = None,
+    tables: Tables = None,
     json: Json = False,
 ) -> None:
     """Check every array against its checksum, shape, finiteness and mesh.
@@ -26,8 +28,10 @@ def check(
     Exit code 3 where something is wrong and stays so.
     """
     plan = read_plan(store)
-    problems = list(check_store(store, plan))
-    left = _repaired(store, problems, workers) if repair and problems else problems
+    if repair:
+        problems, left = _repaired(store, Where(workers, tables=tables))
+    else:
+        problems = left = list(check_store(store, plan))
     if json:
         print_json({"ok": not left, "problems": [{"case": one.case, "what": one.what} for one in problems]})
     else:
@@ -38,13 +42,17 @@ def check(
         raise NotConvergedError(f"{store}: {len(left)} problems; 'myograph ensemble check --repair' removes them")
 
 
-def _repaired(store: Path, problems: list[Problem], workers: int | None) -> list[Problem]:
-    """Compute again what is damaged; the problems that are left."""
-    plan = read_plan(store)
-    with locked(store, 0):
-        forget_damage(store, plan, problems, make_bodies(plan.simulator))
-    compute(store, Where(workers, None, None, None))
-    return list(check_store(store, plan))
+def _repaired(store: Path, where: Where) -> tuple[list[Problem], list[Problem]]:
+    """Compute again what is damaged; the problems that there were, found while nobody else worked, and those left."""
+    plan, options = read_plan(store), run_options(where)
+    with locked(store, 0), writing_to(store):
+        found = list(check_store(store, plan))
+        if not found:
+            return [], []
+        again = any(not one.summed_up for one in found)
+        forget_damage(store, plan, found, make_bodies(plan.simulator) if again else {})
+    compute(store, options)
+    return found, list(check_store(store, plan))
 
 
 def _place(problem: Problem) -> str:

@@ -19,9 +19,13 @@ from myograph.ensemble.store.plan import read_plan
 from myograph.errors import InputError, MissingPackageError
 
 if TYPE_CHECKING:
-    from myograph.ensemble.running.run import Listener
+    from myograph.ensemble.running.listener import Listener
+    from myograph.ensemble.running.run import RunOptions
 
 Workers = Annotated[int | None, typer.Option(help="Local processes; without it one for each processor.")]
+Tables = Annotated[
+    Path | None, typer.Option(help="Folder of the tables, where they do not lie any more where they were.")
+]
 Scheduler = Annotated[str | None, typer.Option(help="Address of a Dask scheduler that runs already.")]
 Slurm = Annotated[Path | None, typer.Option(help="TOML file: run as jobs of SLURM.")]
 Again = Annotated[bool, typer.Option("--retry-failed", help="Try the cases again that failed in an earlier run.")]
@@ -33,19 +37,37 @@ class Where:
     """Where and how long cases are computed; see `RunOptions`."""
 
     workers: int | None
-    scheduler: str | None
-    slurm: Path | None
-    time_limit: float | None
+    scheduler: str | None = None
+    slurm: Path | None = None
+    time_limit: float | None = None
     again: bool = False
+    tables: Path | None = None
 
 
-def compute(store: Path, where: Where) -> dict[str, Any]:
-    """Compute what is missing, show progress, and draw the card's figure; what `run_store` returns."""
+def run_options(where: Where) -> "RunOptions":
+    """The options of a run; raises InputError for what makes none, MissingPackageError without Dask."""
     try:
-        from myograph.ensemble.running.run import RunOptions, run_store
+        from myograph.ensemble.running.cluster import read_slurm
+        from myograph.ensemble.running.run import RunOptions
     except ModuleNotFoundError as missing:
         raise MissingPackageError(str(missing.name), "simulate", "running an ensemble") from None
-    options = RunOptions(where.workers, where.scheduler, where.slurm, where.time_limit, again=where.again)
+    options = RunOptions(
+        where.workers,
+        where.scheduler,
+        where.slurm,
+        where.time_limit,
+        again=where.again,
+        tables=where.tables,
+    )
+    if options.slurm is not None:
+        read_slurm(options.slurm)
+    return options
+
+
+def compute(store: Path, options: "RunOptions") -> dict[str, Any]:
+    """Compute what is missing, show progress, and draw the card's figure; what `run_store` returns."""
+    from myograph.ensemble.running.run import run_store
+
     with _shown(read_plan(store).size) as listener:
         result = run_store(store, options, listener)
     if not (store / FIGURE).exists():
@@ -87,7 +109,7 @@ class _Rate(TextColumn):
 
 @contextmanager
 def _shown(size: int) -> "Iterator[Listener]":
-    from myograph.ensemble.running.run import Listener
+    from myograph.ensemble.running.listener import Listener
 
     console = Console(stderr=True)
     words = TextColumn("{task.description:>28}")
@@ -97,4 +119,5 @@ def _shown(size: int) -> "Iterator[Listener]":
         yield Listener(
             lambda ready: progress.update(task, completed=ready),
             lambda address: console.print(f"dashboard: {address}", highlight=False),
+            lambda threads: progress.update(task, description="cases" if threads else "waiting for workers"),
         )

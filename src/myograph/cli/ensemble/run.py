@@ -2,6 +2,7 @@
 
 import shlex
 import sys
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Any
@@ -9,16 +10,30 @@ from typing import Annotated, Any
 import typer
 
 import myograph
+from myograph.case import MUSCLES
 from myograph.cli.ensemble.asked import Angle, Count, DesignMethod, File, Level, Load, Seed, Step, asked_design
-from myograph.cli.ensemble.compute import Again, Scheduler, Slurm, TimeLimit, Where, Workers, compute, tell
+from myograph.cli.ensemble.compute import (
+    Again,
+    Scheduler,
+    Slurm,
+    Tables,
+    TimeLimit,
+    Where,
+    Workers,
+    compute,
+    run_options,
+    tell,
+)
 from myograph.cli.ensemble.tables import tables_ready
 from myograph.cli.options import ArmFile, Json, read_arm
 from myograph.config import parse
 from myograph.ensemble.config import EnsembleConfig, read_config
 from myograph.ensemble.design import make_design
+from myograph.ensemble.simulators import BUILT_IN
 from myograph.ensemble.spec import SimulatorSpec
-from myograph.ensemble.store.making import make_store, plan_store
+from myograph.ensemble.store.making import make_store, plan_at, plan_store, require_muscles
 from myograph.ensemble.store.plan import read_plan
+from myograph.ensemble.store.tables import simulator_of
 from myograph.errors import InputError
 
 
@@ -61,9 +76,11 @@ def run(
     if chosen is not None:
         given["design"] = (chosen,)
     asked = read_config(config) if config else parse(given, EnsembleConfig, "ensemble")
-    _make(asked, tables or asked.tables, out)
     limit = time_limit if time_limit is not None else asked.run.time_limit_s
-    tell(compute(out, Where(workers or asked.run.workers, scheduler, slurm, limit, retry_failed)), json)
+    own = workers if workers is not None else asked.run.workers
+    options = run_options(Where(own, scheduler, slurm, limit, retry_failed))
+    folder = _make(asked, tables or asked.tables, out)
+    tell(compute(out, replace(options, tables=folder)), json)
 
 
 def resume(
@@ -73,26 +90,38 @@ def resume(
     slurm: Slurm = None,
     time_limit: TimeLimit = None,
     retry_failed: Again = False,
+    tables: Tables = None,
     json: Json = False,
 ) -> None:
     """Compute what is missing in a store."""
     read_plan(store)
-    tell(compute(store, Where(workers, scheduler, slurm, time_limit, retry_failed)), json)
+    where = Where(workers, scheduler, slurm, time_limit, retry_failed, tables)
+    tell(compute(store, run_options(where)), json)
 
 
-def _make(asked: EnsembleConfig, tables: Path | None, out: Path) -> None:
-    """The store, and before that the tables, if the simulator needs them."""
-    design, arm = make_design(asked.design), read_arm(asked.arm)
-    folder = tables
-    if asked.simulator == "table":
-        folder = tables or out.with_name(f"tables-{asked.preset}")
+def _make(asked: EnsembleConfig, tables: Path | None, out: Path) -> Path | None:
+    """Make the store, and before that the tables, if the simulator needs them; where these lie.
+
+    What can be refused is refused before any table is built.
+    """
+    design, arm, there = make_design(asked.design), read_arm(asked.arm), plan_at(out)
+    if there is not None and there.simulator.kind != asked.simulator:
+        made_with = f"holds answers of '{there.simulator.kind}', asked for '{asked.simulator}'"
+        raise InputError(f"{out}: {made_with}; take another folder, or run it with what it was made with")
+    if asked.simulator in BUILT_IN:
+        require_muscles(asked.muscles, MUSCLES)
+    folder = tables if asked.simulator in BUILT_IN else None
+    if asked.simulator == "table" and there is None:
+        folder = tables or out.resolve().with_name(f"tables-{asked.preset}")
         tables_ready(arm, asked.preset, folder)
-    elif asked.simulator != "direct":
-        folder = None
+    elif asked.simulator == "table" and there is not None:
+        known = simulator_of(out, there, tables).tables
+        folder = Path(known) if known else None
     place = None if folder is None else str(folder.resolve())
     spec = SimulatorSpec(asked.simulator, asked.preset, arm.model_dump_json(), place, asked.gravity)
     plan, bodies = plan_store(design, spec, asked.muscles)
     make_store(out, plan, bodies, _provenance())
+    return folder
 
 
 def _provenance() -> dict[str, str]:

@@ -1,6 +1,5 @@
 """What there is to say about a store, in numbers."""
 
-import json
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,10 +9,9 @@ import numpy as np
 
 from myograph.ensemble.card.ranges import MuscleScalars, Range, muscle_scalars, ranges
 from myograph.ensemble.store.chunks import case_shape, chunk_path
-from myograph.ensemble.store.making import PROVENANCE
+from myograph.ensemble.store.opening import readable_row
 from myograph.ensemble.store.plan import StorePlan, read_plan
-from myograph.ensemble.store.rows import Row, read_row
-from myograph.errors import InputError
+from myograph.ensemble.store.provenance import provenance
 
 SHORT = ("displacement", "von_mises")
 """What a card tells of a muscle: reading these two takes a third of the time that all fields take."""
@@ -62,7 +60,7 @@ class StoreFacts:
 def gather_facts(store: Path, names: tuple[str, ...] | None = SHORT) -> StoreFacts:
     """The facts of a store; ranges of some fields, or with None of all that are scalar. It reads those fields."""
     plan = read_plan(store)
-    rows = [_row(store, case) for case in range(plan.size)]
+    rows = [readable_row(store, case) for case in range(plan.size)]
     done = [row.case for row in rows if row is not None and row.state == "done"]
     failed = [row.reason for row in rows if row is not None and row.state == "failed"]
     found = {muscle: _ranges(muscle_scalars(store, plan, muscle), done, names) for muscle in plan.muscles}
@@ -78,17 +76,9 @@ def gather_facts(store: Path, names: tuple[str, ...] | None = SHORT) -> StoreFac
         {muscle: fields for muscle, (fields, _) in found.items()},
         sum(unreadable for _, unreadable in found.values()),
         _stored(store, plan, done),
-        sum(4 * int(np.prod(case_shape(f, plan.nodes[m]))) for m in plan.muscles for f in plan.fields) * len(done),
-        read_provenance(store),
+        sum(4 * int(np.prod(case_shape(field, plan.nodes[muscle]))) for muscle, field in plan.arrays) * len(done),
+        provenance(store),
     )
-
-
-def read_provenance(store: Path) -> dict[str, str]:
-    """Versions, command, seconds; empty where the file is missing or damaged: nothing depends on it."""
-    try:
-        return {str(key): str(value) for key, value in json.loads((store / PROVENANCE).read_bytes()).items()}
-    except (OSError, ValueError, AttributeError):
-        return {}
 
 
 def _ranges(scalars: MuscleScalars, done: list[int], names: tuple[str, ...] | None) -> tuple[Mapping[str, Range], int]:
@@ -96,13 +86,5 @@ def _ranges(scalars: MuscleScalars, done: list[int], names: tuple[str, ...] | No
 
 
 def _stored(store: Path, plan: StorePlan, done: list[int]) -> int:
-    arrays = [(muscle, field) for muscle in plan.muscles for field in plan.fields]
-    places = (chunk_path(store, *array, case) for array in arrays for case in done)
+    places = (chunk_path(store, *array, case) for array in plan.arrays for case in done)
     return sum(place.stat().st_size for place in places if place.exists())
-
-
-def _row(store: Path, case: int) -> Row | None:
-    try:
-        return read_row(store, case)
-    except InputError:
-        return None

@@ -5,11 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import zarr
 from jaxtyping import Float, Int
 
-from myograph.ensemble.store.chunks import chunk_path, decode
+from myograph.ensemble.store.chunks import read_chunk
+from myograph.ensemble.store.opening import readable_row
 from myograph.ensemble.store.plan import StorePlan
+from myograph.ensemble.store.reading import read_body
 from myograph.errors import InputError
 from myograph.fields import FIELDS
 
@@ -38,29 +39,19 @@ class MuscleScalars:
         return ("displacement", *(name for name in self.plan.fields if not FIELDS[name].components))
 
     def read(self, case: int, names: Sequence[str]) -> dict[str, Float[np.ndarray, " nodes"]]:
-        """Some of them in one case; raises InputError where a chunk cannot be read."""
-        found = {}
+        """Some of them in one case; raises InputError where a chunk is not what was written."""
+        row, nodes, found = readable_row(self.store, case), self.plan.nodes[self.muscle], {}
         for name in names:
             moved = name == "displacement"
-            values = self._chunk("position" if moved else name, case)
+            array = f"{self.muscle}/{'position' if moved else name}"
+            values = read_chunk(self.store, array, case, row.chunks.get(array, "") if row else "", nodes)
             found[name] = np.linalg.norm(values - self.reference, axis=1) if moved else values
         return found
 
-    def _chunk(self, field: str, case: int) -> np.ndarray:
-        try:
-            data = chunk_path(self.store, self.muscle, field, case).read_bytes()
-        except OSError as problem:
-            raise InputError(f"{self.store}: case {case}, {self.muscle}/{field}: {problem.strerror}") from None
-        return decode(field, data, self.plan.nodes[self.muscle])
-
 
 def muscle_scalars(store: Path, plan: StorePlan, muscle: str) -> MuscleScalars:
-    """The scalar fields of a muscle; raises InputError where its reference body cannot be read."""
-    try:
-        reference = np.asarray(zarr.open_group(store / muscle, mode="r")["reference_position"])
-    except Exception as problem:
-        raise InputError(f"{store}: '{muscle}' cannot be read: {problem}; see 'myograph ensemble check'") from None
-    return MuscleScalars(store, plan, muscle, reference)
+    """The scalar fields of a muscle; raises InputError where its reference body is not what was written."""
+    return MuscleScalars(store, plan, muscle, read_body(store, plan, muscle).reference)
 
 
 def ranges(scalars: MuscleScalars, cases: Iterable[int], names: Sequence[str]) -> tuple[Mapping[str, Range], int]:
@@ -86,7 +77,7 @@ def distribution(
 ) -> tuple[Float[np.ndarray, " edges"], dict[str, Int[np.ndarray, " bins"]]]:
     """How often the values of a field occur, group by group of cases: ends of the classes, and counts.
 
-    Raises InputError where a chunk cannot be read.
+    Raises InputError where a chunk is not what was written.
     """
     reach = [
         (v.min(), v.max()) for cases in groups.values() for case in cases for v in scalars.read(case, [name]).values()

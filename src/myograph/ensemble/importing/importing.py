@@ -7,12 +7,13 @@ from pathlib import Path
 import numpy as np
 
 from myograph.ensemble.card.writing import write_card
+from myograph.ensemble.csv_rows import Row
 from myograph.ensemble.design.cases import Design
 from myograph.ensemble.importing.answers import bodies_checksum, body_of, fields_of
 from myograph.ensemble.importing.frames import Frame, Frames
 from myograph.ensemble.importing.mapping import Mapping as ImportMapping
 from myograph.ensemble.importing.mapping import MuscleMapping, file_of, holds_all, read_mapping
-from myograph.ensemble.importing.table import Row, read_table
+from myograph.ensemble.importing.table import read_table
 from myograph.ensemble.simulators import IMPORT
 from myograph.ensemble.spec import Body, SimulatorSpec
 from myograph.ensemble.store.making import make_store

@@ -1,34 +1,25 @@
 """The cases of another program's data: a CSV file whose columns the mapping names."""
 
-import csv
 from pathlib import Path
 
 from myograph.case import MUSCLES, Case
+from myograph.ensemble.csv_rows import Row, read_rows
 from myograph.ensemble.design.cases import Design
 from myograph.ensemble.importing.mapping import CasesMapping
 from myograph.errors import InputError
 from myograph.units import radians
 
 _FURTHER = ("hand_load_n", "elbow_angle_deg", "design")
-Row = dict[str, str]
 
 
 def read_table(path: Path, mapping: CasesMapping) -> tuple[Design, list[Row]]:
     """The cases, and the rows as they stand in the file; raises InputError with file and line."""
-    try:
-        with path.open(newline="", encoding="utf-8") as file:
-            reader = csv.DictReader(file, strict=True)
-            found = list(reader.fieldnames or [])
-            rows = [(reader.line_num, row) for row in reader]
-    except (OSError, UnicodeDecodeError, csv.Error) as problem:
-        raise InputError(f"{path}: not a readable CSV file: {problem}") from None
+    found, rows = read_rows(path)
     columns = _columns(path, mapping, found)
     if not rows:
         raise InputError(f"{path}: expected at least one case, got none")
     cases = []
     for line, row in rows:
-        if None in row or None in row.values():
-            raise InputError(f"{path}, line {line}: expected {len(found)} columns, got another number")
         try:
             cases.append(_case(row, columns, mapping.absent))
         except (ValueError, InputError) as problem:

@@ -18,8 +18,7 @@ from myograph.case import Simulator
 from myograph.ensemble.simulators import made_anew, make_simulator
 from myograph.ensemble.spec import SimulatorSpec
 from myograph.ensemble.store.plan import StorePlan, read_plan
-from myograph.ensemble.store.rows import write_failure
-from myograph.ensemble.store.writing import write_solution
+from myograph.ensemble.store.writing import write_failure, write_solution
 from myograph.errors import MyographError
 
 Answer = dict[str, Any]
@@ -72,7 +71,7 @@ def _solve(place: tuple[Path, StorePlan], simulator: Simulator, step: Answer) ->
     except Exception as problem:
         if not step["write"]:
             return "failed"
-        return write_failure(store, number, problem).state
+        return write_failure(store, plan, number, problem).state
     return write_solution(store, plan, number, solution).state if step["write"] else "done"
 
 

@@ -77,7 +77,7 @@ class SimulatorProcess:
         try:
             self._process.stdin.write(json.dumps(message) + "\n")
             self._process.stdin.flush()
-        except OSError:
+        except (OSError, ValueError):
             raise ProcessDiedError from None
 
     def _answer(self, seconds: float | None) -> dict[str, Any]:

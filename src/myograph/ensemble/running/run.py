@@ -1,10 +1,9 @@
 """Run an ensemble: make the store or go on with it, compute what is missing, sum up."""
 
 import os
+import threading
 import time
-import uuid
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from myograph.ensemble.card.text import FIGURE
@@ -12,19 +11,21 @@ from myograph.ensemble.card.writing import CARD, add_cost, write_card
 from myograph.ensemble.running.batch import Task
 from myograph.ensemble.running.chains import batches
 from myograph.ensemble.running.cluster import connected
-from myograph.ensemble.running.drive import Batch, Drive, NoWorkersError
-from myograph.ensemble.running.plugin import SolverPlugin
-from myograph.ensemble.store.aside import sweep
+from myograph.ensemble.running.drive import Batch, Drive
+from myograph.ensemble.running.listener import NOBODY, Listener
+from myograph.ensemble.running.lost import PlaceLostError
+from myograph.ensemble.running.plugin import solvers
+from myograph.ensemble.store.aside import sweep, writing_to
 from myograph.ensemble.store.lock import locked
 from myograph.ensemble.store.plan import StorePlan, read_plan
 from myograph.ensemble.store.repairing import forget_case
 from myograph.ensemble.store.rows import states
 from myograph.ensemble.store.summary import write_summary
+from myograph.ensemble.store.tables import note_tables, simulator_of
 from myograph.errors import InputError
 
-Progress = Callable[[int], None]
 _CLUSTERS = 3
-"""How many clusters are started, each where the one before lost all its workers."""
+"""How many clusters are started, each where the one before lost all its workers, or its scheduler."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,8 @@ class RunOptions:
         How often a case is tried again when its process is lost.
     again
         Whether cases that failed in an earlier run are tried again.
+    tables
+        Folder of the tables, where they do not lie any more where they were.
     """
 
     workers: int | None = None
@@ -53,34 +56,33 @@ class RunOptions:
     seconds: float | None = None
     retries: int = 3
     again: bool = False
+    tables: Path | None = None
 
     def __post_init__(self) -> None:
         if self.workers is not None and self.workers < 1:
             raise InputError(f"workers: expected at least 1, got {self.workers}")
-        if self.seconds is not None and not self.seconds > 0:
-            raise InputError(f"time limit: expected a positive number of seconds, got {self.seconds:g}")
+        if self.scheduler is not None and self.slurm is not None:
+            raise InputError("expected either a scheduler's address or a SLURM configuration, got both")
+        if self.seconds is not None and not 0 < self.seconds <= threading.TIMEOUT_MAX:
+            raise InputError(f"time limit: expected a positive number of seconds, got {self.seconds:g}; leave it out")
         if self.retries < 0:
             raise InputError(f"retries: expected at least 0, got {self.retries}")
 
 
-@dataclass(frozen=True)
-class Listener:
-    """What a run tells while it works: cases that have a row, and the address of Dask's dashboard."""
-
-    ready: Progress = lambda _: None
-    dashboard: Callable[[str], None] = lambda _: None
-
-
-def run_store(store: Path, options: RunOptions, listener: Listener = Listener()) -> dict[str, float | int | str]:
+def run_store(store: Path, options: RunOptions, listener: Listener = NOBODY) -> dict[str, float | int | str]:
     """Compute all cases that have no row yet; those that failed have one.
 
     Returns the numbers of cases, done and failed ones, seconds and the store. Raises InputError where somebody else
-    works on the store, where it cannot be written, and where the simulator cannot be made.
+    works on the store, where it cannot be written, where the simulator or its tables are not there, and where workers
+    or the scheduler are lost again and again.
     """
     started = time.perf_counter()
     plan = read_plan(store)
-    with locked(store, sum(state is not None for state in states(store, plan.size))):
+    with locked(store, sum(state is not None for state in states(store, plan.size))), writing_to(store):
         sweep(store)
+        wanted = {None, "failed"} if options.again else {None}
+        if wanted & set(states(store, plan.size)):
+            plan = replace(plan, simulator=simulator_of(store, plan, options.tables))
         if options.again:
             _forget_failed(store, plan)
         todo = missing(store, plan)
@@ -114,32 +116,33 @@ def missing(store: Path, plan: StorePlan) -> list[Batch]:
 
 def _run(store: Path, plan: StorePlan, how: tuple[RunOptions, Listener], todo: list[Batch]) -> None:
     options, listener = how
+    note_tables(store, plan.simulator.tables)
     task = Task(str(store.resolve()), plan.simulator, options.seconds, options.retries)
-    workers = min(options.workers or os.cpu_count() or 1, len(todo))
-    for _ in range(_CLUSTERS):
-        name = f"myograph-{uuid.uuid4().hex}"
-        before = plan.size - sum(map(len, todo))
+    workers, lost = min(options.workers or os.cpu_count() or 1, len(todo)), ""
+    for turn in range(_CLUSTERS):
+        told = _counted(listener, plan.size - sum(map(len, todo)))
         try:
-            with connected(workers, options.scheduler, options.slurm) as client:
-                listener.dashboard(client.dashboard_link or "")
-                client.register_plugin(SolverPlugin(task, name), name=name)
-                try:
-                    Drive(client, name, store, lambda count, before=before: listener.ready(before + count)).run(todo)
-                finally:
-                    client.unregister_worker_plugin(name)
+            with (
+                connected(workers, options.scheduler, options.slurm) as place,
+                solvers(place.client, task) as name,
+            ):
+                listener.dashboard(place.client.dashboard_link or "")
+                Drive(place, name, store, told, seen=turn > 0).run(todo)
             return
-        except NoWorkersError:
-            todo = missing(store, plan)
-    raise InputError(f"{store}: all workers were lost, {_CLUSTERS} times; run it again with fewer of them")
+        except PlaceLostError as problem:
+            lost, todo = str(problem), missing(store, plan)
+    raise InputError(f"{store}: the run was stopped {_CLUSTERS} times: {lost}; see to the workers and run it again")
+
+
+def _counted(listener: Listener, before: int) -> Listener:
+    """The listener, told the number of all cases that have a row: those of this run and those from before."""
+    return replace(listener, ready=lambda count: listener.ready(before + count))
 
 
 def _sum_up(store: Path, plan: StorePlan, seconds: float) -> None:
     """Write what all cases have in common: their numbers, what they cost [s], and the card."""
-    try:
-        write_summary(store, plan)
-        if seconds:
-            add_cost(store, seconds)
-        if not (store / CARD).exists():
-            write_card(store)
-    except OSError as problem:
-        raise InputError(f"{store}: cannot be written ({problem.strerror}); free some room and run it again") from None
+    write_summary(store, plan)
+    if seconds:
+        add_cost(store, seconds)
+    if not (store / CARD).exists():
+        write_card(store)

@@ -1,4 +1,7 @@
-"""Is a store what it says? Every file against its checksum, every array against shape, finiteness and mesh."""
+"""Is a store what it says? Every file against its checksum, every array against shape, finiteness and mesh.
+
+The group `cases` is held against the rows once every case has one: it is written at the end of a run.
+"""
 
 import hashlib
 from collections.abc import Iterator
@@ -10,8 +13,10 @@ import zarr
 
 from myograph.ensemble.store.checksum import checksum
 from myograph.ensemble.store.chunks import chunk_path, decode
+from myograph.ensemble.store.opening import readable_row
 from myograph.ensemble.store.plan import StorePlan
-from myograph.ensemble.store.rows import read_row
+from myograph.ensemble.store.rows import Row, read_row
+from myograph.ensemble.store.summary import summary_problem
 from myograph.errors import InputError
 
 UNCOUNTED = ("provenance.json", "card.md", "card.png")
@@ -20,10 +25,17 @@ UNCOUNTED = ("provenance.json", "card.md", "card.png")
 
 @dataclass(frozen=True)
 class Problem:
-    """What is wrong, and with which case; None for what all cases share."""
+    """What is wrong, and with which case; None for what all cases share.
+
+    Parameters
+    ----------
+    summed_up
+        Whether it is of what every run writes anew at its end.
+    """
 
     case: int | None
     what: str
+    summed_up: bool = False
 
 
 def check_store(store: Path, plan: StorePlan) -> Iterator[Problem]:
@@ -33,6 +45,10 @@ def check_store(store: Path, plan: StorePlan) -> Iterator[Problem]:
     if not still:
         for muscle in plan.muscles:
             yield from _mesh(store, plan, muscle)
+    rows = [readable_row(store, case) for case in range(plan.size)]
+    what = "" if None in rows else summary_problem(store, plan, rows)
+    if what:
+        yield Problem(None, what, summed_up=True)
     for case in range(plan.size):
         what = _case(store, plan, case)
         if what:
@@ -69,11 +85,9 @@ def _case(store: Path, plan: StorePlan, case: int) -> str:
         row = read_row(store, case)
     except InputError:
         return "its row is damaged"
-    if row is None:
-        return "has not been computed yet"
-    if row.state == "failed":
-        return ""
-    expected = {f"{muscle}/{field}" for muscle in plan.muscles for field in plan.fields}
+    if row is None or row.state == "failed":
+        return _unanswered(store, plan, case, row)
+    expected = {f"{muscle}/{field}" for muscle, field in plan.arrays}
     if set(row.chunks) != expected or not np.isfinite([row.elbow_angle or 0.0, *row.moments.values()]).all():
         return "its row does not fit this store"
     for name, found in row.chunks.items():
@@ -81,6 +95,14 @@ def _case(store: Path, plan: StorePlan, case: int) -> str:
         if what:
             return what
     return ""
+
+
+def _unanswered(store: Path, plan: StorePlan, case: int, row: Row | None) -> str:
+    """What is wrong with a case that failed, or has no row: the one has no arrays, the other should be computed."""
+    left = [f"{muscle}/{field}" for muscle, field in plan.arrays if chunk_path(store, muscle, field, case).exists()]
+    arrays = f"has arrays without an answer: {', '.join(left)}" if left else ""
+    words = ["has not been computed yet"] if row is None else []
+    return ", ".join([*words, arrays] if arrays else words)
 
 
 def _chunk(store: Path, plan: StorePlan, name: str, case: int, expected: str) -> str:

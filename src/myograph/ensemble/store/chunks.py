@@ -6,12 +6,14 @@ shuffled) with one thread: the same values make the same bytes. Chunks are encod
 takes ten times as long for one; it reads them, and would write the same.
 """
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 from numcodecs import blosc  # pyright: ignore[reportAttributeAccessIssue]
 
+from myograph.ensemble.store.checksum import checksum
 from myograph.errors import InputError
 from myograph.fields import AXES, FIELDS, VOIGT
 
@@ -35,6 +37,12 @@ def chunk_path(store: Path, muscle: str, field: str, case: int) -> Path:
     return store / muscle / field / f"c.{case}{zeros}"
 
 
+def remove_chunks(store: Path, arrays: Iterable[tuple[str, str]], case: int) -> None:
+    """Remove what a case has in arrays, named by muscle and field."""
+    for muscle, field in arrays:
+        chunk_path(store, muscle, field, case).unlink(missing_ok=True)
+
+
 def encode(field: str, values: np.ndarray, nodes: int) -> bytes:
     """The chunk of one case; raises InputError unless there are as many finite numbers as the field needs."""
     expected = case_shape(field, nodes)
@@ -47,6 +55,19 @@ def encode(field: str, values: np.ndarray, nodes: int) -> bytes:
         raise InputError(f"{field}: expected finite numbers, got {int(finite.size - finite.sum())} that are not")
     blosc.use_threads = False
     return bytes(blosc.Blosc(cname="zstd", clevel=3, shuffle=blosc.SHUFFLE, blocksize=0).encode(rounded))
+
+
+def read_chunk(store: Path, name: str, case: int, written: str, nodes: int) -> Float[np.ndarray, "nodes ..."]:
+    """The array MUSCLE/FIELD of a case; raises InputError unless its bytes have the checksum they were written with."""
+    muscle, field = name.split("/")
+    repair = f"run 'myograph ensemble check {store} --repair'"
+    try:
+        data = chunk_path(store, muscle, field, case).read_bytes()
+    except OSError as problem:
+        raise InputError(f"{store}: case {case}, {name}: {problem.strerror}; {repair}") from None
+    if checksum(data) != written:
+        raise InputError(f"{store}: case {case}, {name}: not the bytes that were written; {repair}")
+    return decode(field, data, nodes)
 
 
 def decode(field: str, data: bytes, nodes: int) -> Float[np.ndarray, "nodes ..."]:

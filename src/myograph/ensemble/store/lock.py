@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
+from myograph.ensemble.store.aside import writing_to
 from myograph.errors import InputError
 
 RUNNER = ".runner"
@@ -27,20 +28,18 @@ class Runner:
 
 @contextmanager
 def locked(store: Path, ready: int) -> Iterator[None]:
-    """Hold the store; raises InputError where somebody else does."""
-    path = store / RUNNER
-    try:
-        file = path.open("a+", encoding="utf-8")
-    except OSError as problem:
-        raise InputError(f"{store}: cannot be written ({problem.strerror})") from None
+    """Hold the store; raises InputError where somebody else does, and where it cannot be written."""
+    with writing_to(store):
+        file = (store / RUNNER).open("a+b", buffering=0)
     with file:
         if not _take(file):
             other = runner(store)
-            who = f"process {other.pid} on {other.host}" if other else "another process"
-            raise InputError(f"{store}: {who} is at work on it; wait for its end, or take another folder")
-        file.truncate(0)
-        json.dump(asdict(Runner(os.getpid(), socket.gethostname(), time.time(), ready)), file)
-        file.flush()
+            name = f"process {other.pid} on {other.host}" if other else "another process"
+            raise InputError(f"{store}: {name} is at work on it; wait for its end, or take another folder")
+        who = Runner(os.getpid(), socket.gethostname(), time.time(), ready)
+        with writing_to(store):
+            file.truncate(0)
+            file.write(json.dumps(asdict(who)).encode())
         try:
             yield
         finally:
@@ -64,7 +63,7 @@ def is_locked(store: Path) -> bool:
         return False
 
 
-def _take(file: IO[str]) -> bool:
+def _take(file: IO[Any]) -> bool:
     """Try to lock the file until it is closed."""
     try:
         import fcntl
@@ -77,7 +76,7 @@ def _take(file: IO[str]) -> bool:
     return True
 
 
-def _take_on_windows(file: IO[str]) -> bool:
+def _take_on_windows(file: IO[Any]) -> bool:
     import msvcrt
 
     file.seek(1 << 20)

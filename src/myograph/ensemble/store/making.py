@@ -1,10 +1,9 @@
 """A new store: its plan, its empty arrays and the muscles' reference bodies; there as a whole or not at all."""
 
-import json
 import os
 import shutil
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -19,21 +18,39 @@ from myograph.ensemble.store.arrays import add_field
 from myograph.ensemble.store.aside import ASIDE
 from myograph.ensemble.store.checksum import checksum
 from myograph.ensemble.store.plan import PLAN, SCHEMA, StorePlan, plan_bytes, read_plan
+from myograph.ensemble.store.provenance import PROVENANCE, provenance_bytes
 from myograph.ensemble.store.rows import ROWS
+from myograph.ensemble.store.tables import note
 from myograph.errors import InputError
-
-PROVENANCE = "provenance.json"
 
 
 def plan_store(design: Design, simulator: SimulatorSpec, muscles: Sequence[str]) -> tuple[StorePlan, dict[str, Body]]:
     """What a store of these cases holds; raises InputError for muscles that the simulator does not know."""
     bodies = make_bodies(simulator)
-    unknown = [name for name in muscles if name not in bodies]
-    if unknown or not muscles:
-        raise InputError(f"muscles: expected some of {', '.join(bodies)}, got {', '.join(muscles) or 'none'}")
+    require_muscles(muscles, bodies)
     chosen = {name: bodies[name] for name in dict.fromkeys(muscles)}
     nodes = {name: len(body.reference) for name, body in chosen.items()}
     return StorePlan(design, simulator, describe_simulator(simulator), tuple(chosen), nodes, {}), chosen
+
+
+def require_muscles(asked: Sequence[str], known: Iterable[str]) -> None:
+    """Raise InputError unless there are some muscles, and all of them are known."""
+    names = tuple(known)
+    if not asked or any(name not in names for name in asked):
+        raise InputError(f"muscles: expected some of {', '.join(names)}, got {', '.join(asked) or 'none'}")
+
+
+def plan_at(path: Path) -> StorePlan | None:
+    """The plan of the store at a path, None where a new one can be made.
+
+    Raises InputError for a folder of something else, and for the one that the shell stands in: a new store would take
+    its place.
+    """
+    if path.exists() and (not path.is_dir() or any(path.iterdir())):
+        return read_plan(path)
+    if path.resolve() == Path.cwd():
+        raise InputError(f"{path}: expected another folder than the one you are in; give the new store a name")
+    return None
 
 
 def make_store(path: Path, plan: StorePlan, bodies: Mapping[str, Body], provenance: Mapping[str, str]) -> StorePlan:
@@ -41,12 +58,12 @@ def make_store(path: Path, plan: StorePlan, bodies: Mapping[str, Body], provenan
 
     Raises InputError for a store of another design, for a folder of something else, and where there is no room.
     """
-    if path.exists() and (not path.is_dir() or any(path.iterdir())):
-        found = read_plan(path)
-        if found.identity != plan.identity:
-            raise InputError(
-                f"{path}: holds {_difference(found, plan)}; take another folder, or run it with what it was made with"
-            )
+    found = plan_at(path)
+    if found is not None and found.identity != plan.identity:
+        raise InputError(
+            f"{path}: holds {_difference(found, plan)}; take another folder, or run it with what it was made with"
+        )
+    if found is not None:
         return found
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -54,7 +71,7 @@ def make_store(path: Path, plan: StorePlan, bodies: Mapping[str, Body], provenan
     except OSError as problem:
         raise InputError(f"{path}: cannot be written ({problem.strerror})") from None
     try:
-        _fill(aside, plan, bodies, provenance)
+        _fill(aside, plan, bodies, {**provenance, **note(path, plan.simulator.tables)})
         aside.chmod(0o755)
         os.replace(aside, path)
     except OSError as problem:
@@ -70,7 +87,7 @@ def _fill(folder: Path, plan: StorePlan, bodies: Mapping[str, Body], provenance:
     (folder / ASIDE).mkdir()
     files = sorted(path for path in folder.rglob("*") if path.is_file())
     still = {path.relative_to(folder).as_posix(): checksum(path.read_bytes()) for path in files}
-    (folder / PROVENANCE).write_text(json.dumps(dict(provenance), indent=1), encoding="utf-8")
+    (folder / PROVENANCE).write_bytes(provenance_bytes(provenance))
     (folder / PLAN).write_bytes(plan_bytes(plan.with_still(still)))
 
 

@@ -14,19 +14,19 @@
     surface_quads, connectivity     node indices of the skin, outward normal, and of the elements
     sensor_nodes                    the standard sensors
 
-A case that failed, or has not been computed yet, is NaN in every field. Learning reads a store by
+A case that failed, or has not been computed yet, is NaN in every field; one whose run was killed may have some fields
+already, its `state` is 'missing' all the same. Learning reads a store by
 `myograph.ensemble.store.reading.read_muscle`.
 """
 
-import json
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
 from myograph.case import MUSCLES
-from myograph.ensemble.store.making import PROVENANCE
 from myograph.ensemble.store.plan import StorePlan, read_plan
+from myograph.ensemble.store.provenance import provenance
 from myograph.ensemble.store.rows import Row, read_row
 from myograph.errors import InputError
 from myograph.fields import AXES, FIELDS, VOIGT
@@ -108,11 +108,3 @@ def readable_row(store: Path, case: int) -> Row | None:
         return read_row(store, case)
     except InputError:
         return None
-
-
-def provenance(store: Path) -> dict[str, str]:
-    """Who made the store: versions and command; empty where that cannot be read."""
-    try:
-        return {str(key): str(value) for key, value in json.loads((store / PROVENANCE).read_bytes()).items()}
-    except (OSError, ValueError, AttributeError):
-        return {}

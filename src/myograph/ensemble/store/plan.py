@@ -54,6 +54,11 @@ class StorePlan:
         return len(self.design.cases)
 
     @property
+    def arrays(self) -> tuple[tuple[str, str], ...]:
+        """Muscle and field of every array that has a chunk for each answered case."""
+        return tuple((muscle, field) for muscle in self.muscles for field in self.fields)
+
+    @property
     def identity(self) -> str:
         """Checksum of what is asked; a store is continued only by a run that asks the same."""
         asked = [SCHEMA, _cases(self.design), dict(self.described), self.muscles, dict(self.nodes)]
@@ -65,11 +70,14 @@ class StorePlan:
 
 
 def plan_bytes(plan: StorePlan) -> bytes:
-    """The plan as the bytes of its file; its own checksum is the last entry."""
+    """The plan as the bytes of its file; its own checksum is the last entry.
+
+    Where the tables lie is no part of it: see `myograph.ensemble.store.tables`.
+    """
     body = {
         "schema": SCHEMA,
         "identity": plan.identity,
-        "simulator": asdict(plan.simulator),
+        "simulator": {**asdict(plan.simulator), "tables": None},
         "described": dict(plan.described),
         "muscles": list(plan.muscles),
         "nodes": dict(plan.nodes),

@@ -16,9 +16,10 @@ from jaxtyping import Float, Int
 from myograph.ensemble.muscle_cases import MuscleCases
 from myograph.ensemble.spec import Body
 from myograph.ensemble.store.checksum import checksum
-from myograph.ensemble.store.chunks import case_shape, chunk_path, decode
-from myograph.ensemble.store.opening import provenance, readable_row
+from myograph.ensemble.store.chunks import case_shape, read_chunk
+from myograph.ensemble.store.opening import readable_row
 from myograph.ensemble.store.plan import StorePlan, read_plan
+from myograph.ensemble.store.provenance import provenance
 from myograph.ensemble.store.rows import Row
 from myograph.errors import InputError
 
@@ -33,6 +34,11 @@ def read_muscle(store: Path, muscle: str, kept_bytes: int = KEPT_BYTES) -> Muscl
     Raises InputError where there is no store, a damaged one, one without this muscle, or without any answer; and
     later, when a field is read, where its bytes are not those that were written.
     """
+    return read_numbered(store, muscle, kept_bytes)[0]
+
+
+def read_numbered(store: Path, muscle: str, kept_bytes: int = KEPT_BYTES) -> tuple[MuscleCases, list[int]]:
+    """What `read_muscle` gives, and the number that each of these cases has in the store."""
     plan = read_plan(store)
     if muscle not in plan.muscles:
         raise InputError(f"{store}: expected one of {', '.join(plan.muscles)}, got '{muscle}'")
@@ -41,9 +47,9 @@ def read_muscle(store: Path, muscle: str, kept_bytes: int = KEPT_BYTES) -> Muscl
         raise InputError(f"{store}: expected answered cases, found none; run it with 'myograph ensemble run'")
     cases = [plan.design.cases[row.case] for row in rows]
     chunks = _Chunks(store, muscle, plan, rows, kept_bytes)
-    return MuscleCases(
+    found = MuscleCases(
         muscle,
-        _body(store, plan, muscle),
+        read_body(store, plan, muscle),
         np.array([case.activations for case in cases]),
         np.array([case.hand_load for case in cases]),
         np.array([np.nan if row.elbow_angle is None else row.elbow_angle for row in rows]),
@@ -53,16 +59,18 @@ def read_muscle(store: Path, muscle: str, kept_bytes: int = KEPT_BYTES) -> Muscl
         chunks.identity(plan.identity),
         {"simulator": plan.simulator.kind, **provenance(store), **_told(plan.described)},
     )
+    return found, [row.case for row in rows]
 
 
 def _told(described: Mapping[str, Any]) -> dict[str, str]:
     return {key: str(described[key]) for key in ("preset", "arm_checksum") if key in described}
 
 
-def _body(store: Path, plan: StorePlan, muscle: str) -> Body:
+def read_body(store: Path, plan: StorePlan, muscle: str) -> Body:
+    """The reference body of a muscle; raises InputError where a file of it is not what was written."""
     for name, written in plan.still.items():
         if name.startswith(f"{muscle}/") and _bytes(store, store / name, name) != written:
-            raise InputError(f"{store}: {name}: not the bytes that were written; run the ensemble into a new store")
+            raise InputError(f"{store}: {name}: not the bytes that were written; {_repair(store)}")
     group = zarr.open_group(store / muscle, mode="r")
     return Body(*(np.asarray(group[name]) for name in _BODY))
 
@@ -71,7 +79,11 @@ def _bytes(store: Path, path: Path, name: str) -> str:
     try:
         return checksum(path.read_bytes())
     except OSError as problem:
-        raise InputError(f"{store}: {name}: {problem.strerror}; run the ensemble into a new store") from None
+        raise InputError(f"{store}: {name}: {problem.strerror}; {_repair(store)}") from None
+
+
+def _repair(store: Path) -> str:
+    return f"run 'myograph ensemble check {store} --repair'"
 
 
 class _Chunks:
@@ -107,20 +119,10 @@ class _Chunks:
         if key in self._kept:
             self._kept.move_to_end(key)
             return self._kept[key]
-        values = self._decoded(field, case)
+        name = f"{self._muscle}/{field}"
+        values = read_chunk(self._store, name, self._numbers[case], self._checksums[case][field], self._nodes)
         self._kept[key] = values
         self._bytes += values.nbytes
         while self._bytes > self._most and len(self._kept) > 1:
             self._bytes -= self._kept.popitem(last=False)[1].nbytes
         return values
-
-    def _decoded(self, field: str, case: int) -> np.ndarray:
-        number, name = self._numbers[case], f"{self._muscle}/{field}"
-        repair = f"run 'myograph ensemble check {self._store} --repair'"
-        try:
-            data = chunk_path(self._store, self._muscle, field, number).read_bytes()
-        except OSError as problem:
-            raise InputError(f"{self._store}: case {number}, {name}: {problem.strerror}; {repair}") from None
-        if checksum(data) != self._checksums[case][field]:
-            raise InputError(f"{self._store}: case {number}, {name}: not the bytes that were written; {repair}")
-        return decode(field, data, self._nodes)

@@ -1,20 +1,22 @@
-"""Damage removed: shared files are written again, cases that are damaged lose their row and are computed again."""
+"""Damage removed: shared files are written again, cases that are damaged lose their row and are computed again.
+
+A case that failed keeps its row and loses only what it has of an answer.
+"""
 
 import os
 import shutil
 import uuid
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 
 from myograph.ensemble.spec import Body
 from myograph.ensemble.store.aside import ASIDE, sweep
 from myograph.ensemble.store.checking import Problem
 from myograph.ensemble.store.checksum import checksum
-from myograph.ensemble.store.chunks import chunk_path
+from myograph.ensemble.store.chunks import remove_chunks
 from myograph.ensemble.store.making import write_still
 from myograph.ensemble.store.plan import StorePlan
-from myograph.ensemble.store.rows import row_path
+from myograph.ensemble.store.rows import row_path, state_of
 from myograph.errors import InputError
 
 
@@ -24,20 +26,19 @@ def forget_damage(store: Path, plan: StorePlan, problems: Sequence[Problem], bod
     Raises InputError where the shared files cannot be made again as they were.
     """
     sweep(store)
-    if any(problem.case is None for problem in problems):
+    if any(problem.case is None and not problem.summed_up for problem in problems):
         _restore(store, plan, bodies)
     for case in {problem.case for problem in problems if problem.case is not None}:
-        forget_case(store, plan, case)
+        if state_of(store, case) == "failed":
+            remove_chunks(store, plan.arrays, case)
+        else:
+            forget_case(store, plan, case)
 
 
 def forget_case(store: Path, plan: StorePlan, case: int) -> None:
     """Remove a case's row, then its arrays."""
-    with suppress(FileNotFoundError):
-        row_path(store, case).unlink()
-    for muscle in plan.muscles:
-        for field in plan.fields:
-            with suppress(FileNotFoundError):
-                chunk_path(store, muscle, field, case).unlink()
+    row_path(store, case).unlink(missing_ok=True)
+    remove_chunks(store, plan.arrays, case)
 
 
 def _restore(store: Path, plan: StorePlan, bodies: Mapping[str, Body]) -> None:

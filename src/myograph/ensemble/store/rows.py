@@ -8,7 +8,7 @@ from typing import Literal
 
 from myograph.ensemble.store.aside import place
 from myograph.ensemble.store.checksum import checksum
-from myograph.errors import InputError, NotConvergedError
+from myograph.errors import InputError
 
 State = Literal["done", "failed"]
 ROWS = "rows"
@@ -56,16 +56,6 @@ def write_row(store: Path, row: Row) -> None:
     body = asdict(row)
     data = {**body, "checksum": checksum(_text(body))}
     place(store, row_path(store, row.case), _text(data))
-
-
-def write_failure(store: Path, case: int, problem: Exception) -> Row:
-    """Store why there is no answer; raises OSError without room."""
-    expected = isinstance(problem, InputError | NotConvergedError)
-    reason = str(problem) if expected else f"{type(problem).__name__}: {problem}"
-    residuals = problem.residuals if isinstance(problem, NotConvergedError) else ()
-    row = Row(case, "failed", reason=reason, residuals=tuple(map(float, residuals)))
-    write_row(store, row)
-    return row
 
 
 def read_row(store: Path, case: int) -> Row | None:
