@@ -69,6 +69,8 @@ What is alike and what is not: [README.md](README.md). `install_mb` is the packa
 Rows = dict[tuple[str, str], dict[str, object]]
 SPREAD = "mean_mm"
 """The figure whose deviation over the seeds is shown."""
+LEAST_SPREAD = 1e-4
+"""Of the figure: less is rounding."""
 PROBES = (5, 35)
 """Steps of two short trainings: their difference says how many fit into the limit."""
 PATIENCE = 600.0
@@ -177,8 +179,10 @@ def page(told: dict[str, object]) -> str:
 
 
 def _cell(row: dict[str, object], key: str) -> str:
-    spread = row.get(f"{key}_std")
-    return _short(row.get(key)) + (f" ± {_short(spread)}" if spread is not None else "")
+    value, spread = row.get(key), row.get(f"{key}_std")
+    if not isinstance(value, float) or not isinstance(spread, float):
+        return _short(value)
+    return f"{_short(value)} ± {_short(spread if spread > LEAST_SPREAD * value else 0.0)}"
 
 
 def _short(value: object) -> str:

@@ -63,7 +63,7 @@ def test_a_file_cannot_ask_for_endless_time(place):
         app(["run", "arm.toml", "--out", "store"], standalone_mode=False)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_a_run_and_its_resumption_take_tables_that_have_moved(place, capsys):
     ask = ["run", "--preset", "tiny", "--muscle", "biceps", "--out", "here/store", "--workers", "1", "--json"]
     verbs = sys.modules["myograph.cli.ensemble.run"]

@@ -9,17 +9,21 @@ DOES = {"package": "scikit-learn", "anywhere": False, "reads": "activations"}
 COMPONENTS = 10
 
 
+def kernel():
+    """A length for each muscle, and some noise; all are fitted."""
+    return ConstantKernel() * Matern(np.ones(5), nu=2.5) + WhiteKernel(1e-5, (1e-10, 1e-1))
+
+
 def fit(task):
-    """A regressor for each component, its kernel with a length for each muscle."""
+    """A regressor for each component."""
     values = np.concatenate([task.position.reshape(len(task.position), -1), task.von_mises], axis=1)
     spread = np.concatenate([np.full(task.position[0].size, task.position.std(axis=0).mean()),
                              np.full(task.von_mises.shape[1], task.von_mises.std(axis=0).mean())])  # fmt: skip
     pca = PCA(min(COMPONENTS, len(values) - 1)).fit(values / spread)
     amounts = pca.transform(values / spread)
     scale = amounts.std(axis=0)
-    kernel = ConstantKernel() * Matern(np.ones(5), nu=2.5) + WhiteKernel(1e-5, (1e-10, 1e-1))
     processes = [
-        GaussianProcessRegressor(kernel, random_state=task.seed).fit(task.activation, amount)
+        GaussianProcessRegressor(kernel(), random_state=task.seed).fit(task.activation, amount)
         for amount in (amounts / scale).T
     ]
 

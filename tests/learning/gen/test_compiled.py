@@ -25,7 +25,7 @@ def told(what):
     return json.loads(done.stdout)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 @pytest.mark.skipif(shutil.which("g++") is None, reason="there is no C++ compiler")
 def test_the_steps_of_a_training_run_what_was_compiled_and_predictions_do_not():
     found = told("steps")
@@ -34,7 +34,7 @@ def test_the_steps_of_a_training_run_what_was_compiled_and_predictions_do_not():
     np.testing.assert_allclose(found["compiled"], found["plain"], rtol=1e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive
 def test_nodes_of_a_compiled_network_receive_the_gradient_of_a_plain_one():
     for plain, compiled in told("nodes").values():
         assert np.abs(plain).max() > 1e-4
