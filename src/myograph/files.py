@@ -51,7 +51,7 @@ def write_whole_folder(path: Path, write: Callable[[Path], object]) -> None:
 
 @contextmanager
 def refusing(path: Path) -> Iterator[None]:
-    """What cannot be written at `path` within becomes an InputError: for what is not written whole, such as a log."""
+    """What cannot be written at `path` within becomes an InputError: for what is not written whole (a log, a store)."""
     try:
         yield
     except OSError as problem:
@@ -72,7 +72,8 @@ def _swap(path: Path, aside: Path) -> None:
 
 def _refusal(path: Path, problem: OSError) -> InputError:
     return InputError(
-        f"{path}: cannot be written ({problem.strerror or problem}); free some room or choose another folder"
+        f"{path}: cannot be written ({problem.strerror or problem}); "
+        "free some room and run it again, or choose another folder"
     )
 
 

@@ -4,13 +4,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 from myograph.case import Simulator
-from myograph.ensemble.store.aside import sweep, writing_to
+from myograph.ensemble.store.aside import sweep
 from myograph.ensemble.store.lock import locked
 from myograph.ensemble.store.plan import read_plan
 from myograph.ensemble.store.rows import states
 from myograph.ensemble.store.summary import write_summary
 from myograph.ensemble.store.writing import write_failure, write_solution
 from myograph.errors import InputError
+from myograph.files import refusing
 
 
 def compute_here(store: Path, simulator: Simulator, advance: Callable[[], None] = lambda: None) -> None:
@@ -26,7 +27,7 @@ def compute_here(store: Path, simulator: Simulator, advance: Callable[[], None] 
             "run it with 'myograph ensemble run'"
         )
     found = states(store, plan.size)
-    with locked(store, sum(state is not None for state in found)), writing_to(store):
+    with locked(store, sum(state is not None for state in found)), refusing(store):
         sweep(store)
         for number, case in enumerate(plan.design.cases):
             if found[number] is not None:

@@ -7,15 +7,15 @@ from myograph.cli.dataset.pictures import draw_card_figure
 from myograph.cli.options import Json, print_json
 from myograph.ensemble.card.text import FIGURE
 from myograph.ensemble.card.writing import CARD, write_card
-from myograph.ensemble.store.aside import writing_to
 from myograph.ensemble.store.lock import locked
 from myograph.ensemble.store.plan import read_plan
+from myograph.files import refusing
 
 
 def card(store: Store, json: Json = False) -> None:
     """Write the card of a store anew, with its figure, and print it."""
     read_plan(store)
-    with locked(store, 0), writing_to(store):
+    with locked(store, 0), refusing(store):
         text = write_card(store)
         drawn = draw_card_figure(store)
     if json:

@@ -8,12 +8,12 @@ import typer
 from myograph.cli.ensemble.compute import Tables, Where, Workers, compute, run_options
 from myograph.cli.options import Json, print_json
 from myograph.ensemble.simulators import make_bodies
-from myograph.ensemble.store.aside import writing_to
 from myograph.ensemble.store.checking import Problem, check_store
 from myograph.ensemble.store.lock import locked
 from myograph.ensemble.store.plan import read_plan
 from myograph.ensemble.store.repairing import forget_damage
 from myograph.errors import NotConvergedError
+from myograph.files import refusing
 
 
 def check(
@@ -45,7 +45,7 @@ def check(
 def _repaired(store: Path, where: Where) -> tuple[list[Problem], list[Problem]]:
     """Compute again what is damaged; the problems that there were, found while nobody else worked, and those left."""
     plan, options = read_plan(store), run_options(where)
-    with locked(store, 0), writing_to(store):
+    with locked(store, 0), refusing(store):
         found = list(check_store(store, plan))
         if not found:
             return [], []

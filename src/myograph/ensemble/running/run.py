@@ -15,7 +15,7 @@ from myograph.ensemble.running.drive import Batch, Drive
 from myograph.ensemble.running.listener import NOBODY, Listener
 from myograph.ensemble.running.lost import PlaceLostError
 from myograph.ensemble.running.plugin import solvers
-from myograph.ensemble.store.aside import sweep, writing_to
+from myograph.ensemble.store.aside import sweep
 from myograph.ensemble.store.lock import locked
 from myograph.ensemble.store.plan import StorePlan, read_plan
 from myograph.ensemble.store.repairing import forget_case
@@ -23,6 +23,7 @@ from myograph.ensemble.store.rows import states
 from myograph.ensemble.store.summary import write_summary
 from myograph.ensemble.store.tables import note_tables, simulator_of
 from myograph.errors import InputError
+from myograph.files import refusing
 
 _CLUSTERS = 3
 """How many clusters are started, each where the one before lost all its workers, or its scheduler."""
@@ -78,7 +79,7 @@ def run_store(store: Path, options: RunOptions, listener: Listener = NOBODY) -> 
     """
     started = time.perf_counter()
     plan = read_plan(store)
-    with locked(store, sum(state is not None for state in states(store, plan.size))), writing_to(store):
+    with locked(store, sum(state is not None for state in states(store, plan.size))), refusing(store):
         sweep(store)
         wanted = {None, "failed"} if options.again else {None}
         if wanted & set(states(store, plan.size)):

@@ -6,11 +6,8 @@ What a killed writer leaves lies in `.aside` only and is swept when the store is
 import os
 import shutil
 import uuid
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
-
-from myograph.errors import InputError
 
 ASIDE = ".aside"
 
@@ -26,16 +23,6 @@ def place(store: Path, path: Path, data: bytes) -> None:
         with suppress(OSError):
             aside.unlink()
         raise
-
-
-@contextmanager
-def writing_to(store: Path) -> Iterator[None]:
-    """Turn what the operating system refuses into an InputError that says what to do."""
-    try:
-        yield
-    except OSError as problem:
-        reason = problem.strerror or problem
-        raise InputError(f"{store}: cannot be written ({reason}); free some room and run it again") from None
 
 
 def sweep(store: Path) -> None:

@@ -10,8 +10,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import IO, Any
 
-from myograph.ensemble.store.aside import writing_to
 from myograph.errors import InputError
+from myograph.files import refusing
 
 RUNNER = ".runner"
 
@@ -29,7 +29,7 @@ class Runner:
 @contextmanager
 def locked(store: Path, ready: int) -> Iterator[None]:
     """Hold the store; raises InputError where somebody else does, and where it cannot be written."""
-    with writing_to(store):
+    with refusing(store):
         file = (store / RUNNER).open("a+b", buffering=0)
     with file:
         if not _take(file):
@@ -37,7 +37,7 @@ def locked(store: Path, ready: int) -> Iterator[None]:
             name = f"process {other.pid} on {other.host}" if other else "another process"
             raise InputError(f"{store}: {name} is at work on it; wait for its end, or take another folder")
         who = Runner(os.getpid(), socket.gethostname(), time.time(), ready)
-        with writing_to(store):
+        with refusing(store):
             file.truncate(0)
             file.write(json.dumps(asdict(who)).encode())
         try:
