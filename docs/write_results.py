@@ -1,4 +1,4 @@
-"""Writes docs/results.md from docs/results.json, or from the results of a run, which then take its place.
+"""Writes docs/results*.md from the docs/results*.json beside them; results of a run take the place of their preset's.
 
 python docs/write_results.py [myograph-reproduce/results.json]
 """
@@ -7,17 +7,19 @@ import json
 import sys
 from pathlib import Path
 
-from myograph.evaluation.experiments.results import results_page
+from myograph.evaluation.experiments.results import file_name, results_page
 
 HERE = Path(__file__).parent
 
 
 def main() -> None:
     """Write."""
-    text = Path(sys.argv[1] if len(sys.argv) > 1 else HERE / "results.json").read_text(encoding="utf-8")
-    page = results_page(json.loads(text))
-    (HERE / "results.json").write_text(text, encoding="utf-8")
-    (HERE / "results.md").write_text(page, encoding="utf-8")
+    for source in [Path(path) for path in sys.argv[1:]] or sorted(HERE.glob("results*.json")):
+        text = source.read_text(encoding="utf-8")
+        results = json.loads(text)
+        page, name = results_page(results), file_name(results["preset"])
+        (HERE / f"{name}.json").write_text(text, encoding="utf-8")
+        (HERE / f"{name}.md").write_text(page, encoding="utf-8")
 
 
 if __name__ == "__main__":

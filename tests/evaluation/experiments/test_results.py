@@ -1,4 +1,4 @@
-"""Results in Markdown; docs/results.md says what docs/results.json says."""
+"""Results in Markdown; docs/results*.md say what docs/results*.json say."""
 
 import json
 from pathlib import Path
@@ -7,7 +7,7 @@ import pytest
 
 from myograph.errors import InputError
 from myograph.evaluation.experiments.chapter import SECTIONS, about
-from myograph.evaluation.experiments.results import results_page
+from myograph.evaluation.experiments.results import file_name, results_page
 
 DOCS = Path(__file__).parents[3] / "docs"
 RESULTS = {
@@ -55,7 +55,13 @@ def test_an_unknown_section_is_refused():
         about("6.2.9")
 
 
-def test_the_page_of_results_says_what_the_results_say():
-    results = json.loads((DOCS / "results.json").read_text())
-    assert (DOCS / "results.md").read_text() == results_page(results), "run python docs/write_results.py"
+@pytest.mark.parametrize("told", sorted(DOCS.glob("results*.json")), ids=lambda path: path.stem)
+def test_the_page_of_results_says_what_the_results_say(told):
+    results = json.loads(told.read_text())
+    assert told.stem == file_name(results["preset"])
+    assert told.with_suffix(".md").read_text() == results_page(results), "run python docs/write_results.py"
     assert set(results["sections"]) <= set(SECTIONS)
+
+
+def test_there_are_results_of_the_preset_that_anyone_can_make():
+    assert json.loads((DOCS / "results.json").read_text())["preset"] == "quick"

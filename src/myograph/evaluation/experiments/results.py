@@ -1,4 +1,4 @@
-"""Results as they lie on disk, and what is said of them in Markdown: docs/results.md is written by this alone."""
+"""Results as they lie on disk, and what is said of them in Markdown: docs/results*.md are written by this alone."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -11,9 +11,9 @@ from myograph.evaluation.page import duration
 
 Results = Mapping[str, Any]
 """`sections` (name -> `rows`, `seconds`), `provenance`, and `preset`, as `myograph reproduce` writes them."""
-HEAD = """# Results
+HEAD = """# Results, preset {preset}
 
-Written by `python docs/write_results.py` from [results.json](results.json), which
+Written by `python docs/write_results.py` from [{name}.json]({name}.json), which
 `myograph reproduce --preset {preset}` wrote; no number here was typed by hand. How it is made:
 [reproduce.md](reproduce.md). Methods: [baselines.md](baselines.md), [gen.md](gen.md), [modes.md](modes.md). Protocols:
 [pairs.md](pairs.md).
@@ -31,10 +31,16 @@ def check_results(results: Results) -> None:
         raise InputError(f"results: expected {', '.join(missing)}, got none; write them with 'myograph reproduce'")
 
 
+def file_name(preset: str) -> str:
+    """Of the page and its JSON in docs, without an ending: those of the preset that anyone can make are plain."""
+    return "results" if preset == "quick" else f"results-{preset}"
+
+
 def results_page(results: Results) -> str:
     """The page in Markdown."""
     check_results(results)
-    parts = [HEAD.format(preset=results["preset"])]
+    preset = results["preset"]
+    parts = [HEAD.format(preset=preset, name=file_name(preset))]
     absent = [name for name in SECTIONS if name not in results["sections"]]
     if absent:
         parts.append(f"Sections that were not made in this run: {', '.join(absent)}.\n")
