@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import time
+import warnings
 from pathlib import Path
 
 import pytest
@@ -42,6 +43,42 @@ def test_the_error_of_a_task_is_raised_here():
 
 def test_no_tasks_have_no_results():
     assert side_by_side(_square, [], print) == []
+
+
+def _warn(number, tell):
+    warnings.warn("this network is blind", stacklevel=1)
+    tell(number)
+    time.sleep(0.5)
+
+
+def test_what_several_processes_warn_of_is_warned_of_here_once(capfd):
+    heard = []
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("default")
+        side_by_side(_warn, [(1,), (2,), (3,)], heard.append)
+    assert [str(own.message) for own in caught] == ["this network is blind"]
+    assert sorted(heard) == [1, 2, 3]
+    assert not capfd.readouterr().err
+
+
+WARNING = """
+from myograph.cli import app as command_line
+from myograph.processes import side_by_side
+from tests.test_processes import _warn
+
+if __name__ == "__main__":
+    command_line.app = lambda standalone_mode: side_by_side(_warn, [(1,), (2,)], print) and 0
+    command_line.main()
+"""
+
+
+def test_on_the_command_line_it_is_one_line(tmp_path):
+    (tmp_path / "warning.py").write_text(WARNING)
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, str(tmp_path / "warning.py")]
+    run = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert run.returncode == 0
+    assert run.stderr == "myograph: warning: this network is blind\n"
 
 
 LOCKING = """

@@ -12,6 +12,7 @@ import importlib
 import json
 import sys
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
@@ -21,7 +22,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Task:
-    """What teaches: arrays of the training cases, the body, and the time limit [s]."""
+    """What teaches: arrays of the training cases, the body, the time limit [s], the processor's clock at its start."""
 
     activation: np.ndarray
     position: np.ndarray
@@ -30,6 +31,7 @@ class Task:
     cells: np.ndarray
     seconds: float
     seed: int
+    started: float
 
 
 def run(adapter: str, cases: Path, protocol: str, seconds: float, seed: int) -> dict[str, object]:
@@ -43,23 +45,27 @@ def run(adapter: str, cases: Path, protocol: str, seconds: float, seed: int) -> 
         data = dict(file)
     taught, tested = data[f"train_{protocol}"], data[f"test_{protocol}"]
     fields = [data[name][taught] for name in ("activation", "position", "von_mises")]
-    task = Task(*fields, data["reference"], data["cells"], seconds, seed)
+    task = Task(*fields, data["reference"], data["cells"], seconds, seed, time.process_time())
     try:
-        started = time.process_time()
         predict = module.fit(task)
-        learning = time.process_time() - started
+        learning = time.process_time() - task.started
         answer = predict(data["activation"][tested])
     except Exception as problem:
         return {"reason": " ".join(f"{type(problem).__name__}: {problem}".split())}
     told = {"train_s": learning, "predict_ms": _milliseconds(predict, data["activation"][tested[:1]]), **module.DOES}
-    told |= {"numbers": getattr(predict, "numbers", None), "install_mb": megabytes(module.DOES["package"])}
+    told |= {name: getattr(predict, name, None) for name in ("numbers", "steps")}
+    told["install_mb"] = megabytes(module.DOES["package"])
     return {**told, **errors(answer, data, tested)}
 
 
 def megabytes(package: str) -> float:
     """Size of an installed package, without what it depends on [MB]."""
-    found = [file.locate() for file in metadata.files(package) or ()]
-    return sum(Path(str(path)).stat().st_size for path in found if Path(str(path)).exists()) / 1e6
+    return size_of(Path(str(file.locate())) for file in metadata.files(package) or ())
+
+
+def size_of(files: Iterable[Path]) -> float:
+    """Of those that are there, but what Python compiled of them [MB]."""
+    return sum(file.stat().st_size for file in files if file.is_file() and file.suffix != ".pyc") / 1e6
 
 
 def errors(answer: dict[str, np.ndarray], data: dict[str, np.ndarray], tested: np.ndarray) -> dict[str, float]:

@@ -1,6 +1,7 @@
 """Files and folders appear whole or not at all: written beside their place under a temporary name, then renamed.
 
-An interrupt or a full disk leaves the old file as it was and nothing else.
+An interrupt or a full disk leaves the old file as it was and nothing else. A kill leaves the temporary name, and of a
+folder that was just being replaced the old one under it: `sweep` takes both away.
 """
 
 import os
@@ -47,6 +48,20 @@ def write_whole_folder(path: Path, write: Callable[[Path], object]) -> None:
         raise _refusal(path, problem) from None
     finally:
         shutil.rmtree(aside, ignore_errors=True)
+
+
+def sweep(folder: Path, *names: str) -> None:
+    """Remove what killed writers of these names left in a folder; a name may be a pattern, as '*.npz'.
+
+    Only for the one who writes them; raises InputError for what cannot be removed.
+    """
+    for name in names:
+        for aside in folder.glob(f".{name}-*"):
+            with refusing(aside):
+                if aside.is_dir():
+                    shutil.rmtree(aside)
+                else:
+                    aside.unlink(missing_ok=True)
 
 
 @contextmanager

@@ -1,7 +1,7 @@
 """Work side by side in processes of one thread each, with news from inside while it runs.
 
 Every process is new ('spawn'), so that nothing leaks from one to another; on an error or an interrupt all are ended
-at once.
+at once. What they warn of is warned of here, so that several that say the same are heard once.
 """
 
 import multiprocessing
@@ -9,6 +9,7 @@ import os
 import queue
 import signal
 import threading
+import warnings
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from multiprocessing.managers import SyncManager
@@ -30,7 +31,7 @@ def side_by_side(work: Callable[..., Result], tasks: Sequence[tuple], on_news: N
     manager.start(_prepare)
     with manager:
         news = manager.Queue()
-        pool = ProcessPoolExecutor(min(len(tasks), os.cpu_count() or 1), context, initializer=_prepare)
+        pool = ProcessPoolExecutor(min(len(tasks), os.cpu_count() or 1), context, _prepare_worker, (news,))
         try:
             futures = [pool.submit(_work, work, task, news) for task in tasks]
             _follow(futures, news, on_news)
@@ -55,13 +56,27 @@ def _work(work: Callable[..., Result], task: tuple, news: Any) -> Result:
 
 
 def _follow(futures: Sequence[Future], news: Any, on_news: News) -> None:
-    """Pass the news on until all tasks are done or one has failed."""
+    """Pass the news on, and warn, until all tasks are done or one has failed."""
     while True:
         try:
-            on_news(news.get(timeout=0.1))
+            told = news.get(timeout=0.1)
+            if isinstance(told, Warning):
+                warnings.warn(told, stacklevel=3)
+            else:
+                on_news(told)
         except queue.Empty:
             if all(future.done() for future in futures) or any(f.done() and f.exception() for f in futures):
                 return
+
+
+def _prepare_worker(news: Any) -> None:
+    """As every process; its warnings are news, as text alone: not every warning can be sent."""
+    _prepare()
+
+    def tell(message: Warning | str, *_place: object) -> None:
+        news.put(UserWarning(str(message)))
+
+    warnings.showwarning = tell
 
 
 def _prepare() -> None:

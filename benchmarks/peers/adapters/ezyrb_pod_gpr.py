@@ -1,8 +1,8 @@
 """EZyRB: proper orthogonal decomposition and Gaussian process regression.
 
-Its own kernel has no noise and no bound above zero for its length, which ends there (8.7 mm, as far off as the mean
-shape): the kernel is that of the adapter of scikit-learn. No restarts of the optimiser in the place of EZyRB's twenty,
-with which several hundred cases take many minutes.
+Its own kernel has no noise and no bound above zero for its length, which ends there, so that the mean shape is all that
+it answers: the kernel is that of the adapter of scikit-learn. No restarts of the optimiser in the place of EZyRB's
+twenty, with which several hundred cases take many minutes.
 """
 
 from functools import partial

@@ -1,12 +1,28 @@
-"""neuraloperator: the geometry-informed neural operator, from the body's nodes over a latent grid to the same nodes."""
+"""neuraloperator: the geometry-informed neural operator, from the body's nodes over a latent grid to the same nodes.
+
+Without torch-scatter, which must be built from sources, it takes means over neighbours in a loop that its authors wrote
+for tests only, with which two steps fit into twenty seconds: the same means, all at once, take its place.
+"""
 
 import torch
+from neuralop.layers import integral_transform
 from neuralop.models import GINO
 
 from adapters.stepwise import places, train
 
 DOES = {"package": "neuraloperator", "anywhere": True, "reads": "activations"}
 GRID = 8
+
+
+def segment_csr(src, indptr, reduction, use_scatter):
+    """Sums or means of src (batch, neighbours, channels) between indptr (batch, nodes + 1), alike for the batch."""
+    many = indptr[0].diff()
+    node = torch.repeat_interleave(torch.arange(len(many)), many)
+    total = src.new_zeros(len(src), len(many), src.shape[-1]).index_add(1, node, src)
+    return total / many.clamp(min=1)[:, None] if reduction == "mean" else total
+
+
+integral_transform.segment_csr = segment_csr
 
 
 def fit(task):

@@ -1,6 +1,6 @@
 """pyMOR: its data-driven reductor, POD of the snapshots and greedy kernel interpolation (VKOGA) of their coefficients.
 
-All with pyMOR's own defaults, twenty centres: as many as there are cases miss the corners of `strict` by 14 mm.
+All with pyMOR's own defaults: of these, twenty centres at most.
 """
 
 import numpy as np

@@ -1,15 +1,17 @@
 """What the torch peers share: scaled targets, Adam with a one-cycle rate over a time limit, answers back in mm.
 
-The limit counts the processor's seconds of one thread, so that a busy machine takes nothing from them.
+The limit counts the processor's seconds of one thread, so that a busy machine takes nothing from them. What Adam
+imports when it is first made is imported before.
 """
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 import torch
+import torch._dynamo
 from torch import Tensor, nn
 
 BATCH, RATE = 16, 2e-3
@@ -17,6 +19,8 @@ BATCH, RATE = 16, 2e-3
 
 class Answering:
     """A trained module as what predicts: forward(activation batch) -> (batch, nodes, 4), scaled."""
+
+    steps = 0.0
 
     def __init__(self, module: nn.Module, forward: Callable[[Tensor], Tensor], mean: Any, spread: Any) -> None:
         self.module, self.forward, self.mean, self.spread = module, forward, mean, spread
@@ -41,8 +45,9 @@ def train(module: nn.Module, forward: Callable[[Tensor], Tensor], task: Any) -> 
     wanted = torch.from_numpy((left / spread).astype(np.float32))
     given = torch.from_numpy(task.activation.astype(np.float32))
     optimiser = torch.optim.Adam(module.parameters(), lr=RATE)
-    draw, started = np.random.default_rng(task.seed), time.process_time()
-    while (share := (time.process_time() - started) / task.seconds) < 1:
+    trained = Answering(module, forward, mean, spread)
+    draw = np.random.default_rng(task.seed)
+    for share in shares(task.started, task.seconds):
         rate = RATE * (share / 0.2 if share < 0.2 else 0.5 + 0.5 * math.cos(math.pi * (share - 0.2) / 0.8))
         for group in optimiser.param_groups:
             group["lr"] = max(rate, 1e-6)
@@ -51,7 +56,17 @@ def train(module: nn.Module, forward: Callable[[Tensor], Tensor], task: Any) -> 
         optimiser.zero_grad()
         loss.backward()
         optimiser.step()
-    return Answering(module.eval(), forward, mean, spread)
+        trained.steps += 1
+    module.eval()
+    return trained
+
+
+def shares(started: float, seconds: float) -> Iterator[float]:
+    """Share of the time that is over, before each step; none before a step as long as the last would end too late."""
+    now, step = time.process_time(), 0.0
+    while now + step < started + seconds:
+        yield (now - started) / seconds
+        step, now = time.process_time() - now, time.process_time()
 
 
 def places(task: Any) -> Tensor:

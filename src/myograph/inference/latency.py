@@ -3,6 +3,7 @@
 import time
 
 import numpy as np
+from jaxtyping import Float
 
 from myograph.inference.at_rest import question_at_rest
 from myograph.inference.feeds import feeds
@@ -12,6 +13,11 @@ from myograph.inference.session import run_session
 
 def forward_milliseconds(model: LoadedModel, repeats: int = 30) -> float:
     """Median over the repeats of the time of one pass of the network for all nodes of one case, at rest [ms]."""
+    return float(np.median(forward_times(model, repeats)))
+
+
+def forward_times(model: LoadedModel, repeats: int) -> Float[np.ndarray, " repeats"]:
+    """Each of these times [ms]."""
     signature = model.told.signature
     question = question_at_rest(model, np.array([model.told.trained_range.activation_low]))
     given = feeds(question, signature.inputs)
@@ -20,4 +26,4 @@ def forward_milliseconds(model: LoadedModel, repeats: int = 30) -> float:
         started = time.perf_counter()
         run_session(model.session, given, signature.outputs)
         times.append(time.perf_counter() - started)
-    return 1000 * float(np.median(times))
+    return 1000 * np.array(times)

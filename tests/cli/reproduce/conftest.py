@@ -1,6 +1,7 @@
 """A small store of cases from formulas, with all designs that experiments ask for."""
 
 import pytest
+from threadpoolctl import threadpool_limits
 
 from myograph.anatomy.load import built_in_arm
 from myograph.cli.progress import Steps
@@ -16,12 +17,16 @@ from tests.ensemble import synthetic
 
 @pytest.fixture(scope="session")
 def store(tmp_path_factory):
-    path = tmp_path_factory.mktemp("reproduce") / "store"
     specs = [
         DesignSpec(),
         DesignSpec(method="tenths", count=24, label="support"),
         DesignSpec(method="latin_hypercube", count=8),
     ]
+    return stored(tmp_path_factory.mktemp("reproduce") / "store", specs)
+
+
+def stored(path, specs):
+    """A store of these designs."""
     design = make_design(specs)
     plan, bodies = plan_store(design, synthetic.spec(), ["biceps"])
     make_store(path, plan, bodies, {"command": "a test"})
@@ -38,7 +43,7 @@ def data(store, tmp_path):
 
 @pytest.fixture
 def here(monkeypatch):
-    """Trials in this process, one after the other; the list of those that were made."""
+    """Trials in this process, one after the other, on one thread as in their own; the list of what was made."""
     made = []
 
     def one_by_one(work, tasks, on_news):
@@ -49,4 +54,5 @@ def here(monkeypatch):
         return results
 
     monkeypatch.setattr(running, "side_by_side", one_by_one)
-    return made
+    with threadpool_limits(1):
+        yield made

@@ -2,7 +2,6 @@
 
 import errno
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -56,6 +55,23 @@ def test_a_damaged_entry_counts_as_none(tmp_path, damage):
     assert cache.get("a") is None
 
 
+@pytest.mark.parametrize("flip", [0x40, 0xFF])
+def test_an_entry_with_a_byte_that_changed_is_none_or_reads_as_it_was(tmp_path, flip):
+    cache = Cache(tmp_path)
+    node = np.linspace(0, 1, 30)
+    cache.put("a", Found(FOUND.told, {**FOUND.arrays, "node_mm_thesis": node, "node_mm_strict": node}))
+    path = tmp_path / "a.npz"
+    whole, kept = path.read_bytes(), cache.get("a")
+    assert kept is not None
+    for place in range(len(whole)):
+        path.write_bytes(whole[:place] + bytes([whole[place] ^ flip]) + whole[place + 1 :])
+        found = cache.get("a")
+        if found is not None:
+            assert found.told == kept.told
+            assert list(found.arrays) == list(kept.arrays)
+            assert all(np.array_equal(found.arrays[name], kept.arrays[name]) for name in kept.arrays)
+
+
 def test_a_full_disk_is_told_and_leaves_nothing(tmp_path, monkeypatch):
     cache = Cache(tmp_path / "cache")
     cache.prepare()
@@ -69,13 +85,18 @@ def test_a_full_disk_is_told_and_leaves_nothing(tmp_path, monkeypatch):
     assert [path.name for path in cache.folder.iterdir()] == ["format.json"]
 
 
-def test_leftovers_of_a_kill_are_swept(tmp_path):
+def test_leftovers_of_a_kill_are_swept_and_running_trainings_stay(tmp_path):
     cache = Cache(tmp_path)
     cache.prepare()
-    left = Path(tmp_path / ".abc.npz-xyz")
-    left.write_bytes(b"half")
-    cache.prepare()
-    assert not left.exists()
+    cache.put("abc", FOUND)
+    for name in (".abc.npz-xyz", ".format.json-xyz"):
+        (tmp_path / name).write_bytes(b"half")
+    checkpoint = tmp_path / "running" / "def" / "checkpoint.pt"
+    checkpoint.parent.mkdir(parents=True)
+    checkpoint.write_bytes(b"half a training")
+    assert not cache.prepare()
+    assert {path.name for path in tmp_path.iterdir()} == {"abc.npz", "format.json", "running"}
+    assert checkpoint.read_bytes() == b"half a training"
 
 
 def trial(**changes):

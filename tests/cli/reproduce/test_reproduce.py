@@ -13,11 +13,13 @@ from myograph.anatomy.load import built_in_arm
 from myograph.cli.progress import Steps
 from myograph.cli.reproduce import run_reproduction
 from myograph.cli.reproduce import runner as running
-from myograph.cli.reproduce.data import Places
+from myograph.cli.reproduce.data import Data, Places
 from myograph.cli.reproduce.experiment import Experiment, corners, taught_twice
 from myograph.cli.reproduce.registry import EXPERIMENTS
+from myograph.ensemble.design import DesignSpec
 from myograph.errors import InputError, MissingPackageError
 from myograph.evaluation.experiments.chapter import SECTIONS
+from tests.cli.reproduce.conftest import stored
 
 
 def command(out, *more):
@@ -66,6 +68,52 @@ def test_cases_of_another_arm_are_refused_and_the_option_named(store, tmp_path):
         InputError, match=r"expected cases of the arm \w{16}, got those of \w{16}; name their arm by --arm"
     ):
         run_reproduction(other, "tiny", ["meshes"], Places(tmp_path / "out", store), Steps())
+
+
+@pytest.fixture
+def made_with(monkeypatch):
+    """Makes the versions of all packages what is said."""
+
+    def say(version):
+        monkeypatch.setattr("myograph.cli.reproduce.verb.version", lambda package: version)
+
+    return say
+
+
+def test_a_section_that_other_versions_made_says_so_and_every_section_how_to_make_it_again(
+    store, tmp_path, monkeypatch, here, made_with
+):
+    affine = Experiment(lambda data, size: taught_twice("affine", "affine", corners(data), size), lambda outcome: ())
+    for name in ("meshes", "sensors"):
+        monkeypatch.setitem(EXPERIMENTS, name, affine)
+    monkeypatch.setattr("os.getloadavg", lambda: (1.0, 1.0, 1.0))
+    monkeypatch.setattr(sys, "argv", ["a notebook"])
+    beside = store.with_name("my store")
+    beside.exists() or beside.symlink_to(store)
+    places = Places(tmp_path / "out", beside, arm=tmp_path / "my arm.toml")
+    made_with("1.0")
+    run_reproduction(built_in_arm(), "tiny", ["meshes"], places, Steps())
+    made_with("2.0")
+    run_reproduction(built_in_arm(), "tiny", ["meshes", "sensors"], places, Steps())
+    told = json.loads((tmp_path / "out" / "results.json").read_text())
+    given = "--preset tiny --store 'my store' --arm 'my arm.toml'"
+    assert told["provenance"]["last command"] == f"myograph reproduce --section meshes --section sensors {given}"
+    assert told["provenance"]["versions"].startswith("myograph 2.0, ")
+    own = {name: made["provenance"] for name, made in told["sections"].items()}
+    assert own["meshes"]["versions"].startswith("myograph 1.0, ")
+    assert set(own["sensors"]) == {"command", "seeds", "data", "time taken"}
+    assert own["sensors"]["command"] == f"myograph reproduce --section sensors {given}"
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert page.count("numpy 1.0") == page.count("numpy 2.0") == 1
+
+
+def test_a_store_without_a_design_is_refused_before_anything_is_made(tmp_path, monkeypatch):
+    monkeypatch.setattr(Data, "from_tables", lambda *_: pytest.fail("cases were simulated"))
+    monkeypatch.setattr(running, "side_by_side", lambda *_: pytest.fail("a trial was made"))
+    path = stored(tmp_path / "corners", [DesignSpec(), DesignSpec(method="latin_hypercube", count=8)])
+    wanted = "corners: expected cases of the designs factorial, support and off_grid, got none of support; simulate"
+    with pytest.raises(InputError, match=wanted):
+        run_reproduction(built_in_arm(), "tiny", ["steps", "edge"], Places(tmp_path / "out", path), Steps())
 
 
 def test_an_unknown_section_is_named_before_anything_is_made(tmp_path):

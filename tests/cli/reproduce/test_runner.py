@@ -12,7 +12,7 @@ from myograph.cli.reproduce.cache import Cache, Found
 from myograph.cli.reproduce.experiment import corners, taught_twice
 from myograph.cli.reproduce.outcome import finished, table_rows
 from myograph.cli.reproduce.runner import Runner
-from myograph.cli.reproduce.trial import Chosen, Trial
+from myograph.cli.reproduce.trial import Chosen, Drawn, Trial
 from myograph.cli.reproduce.trying import cases_of, run_trial, split_of
 from myograph.errors import InputError, MissingPackageError
 
@@ -79,7 +79,37 @@ def test_seeds_become_a_mean_and_a_deviation(runner, data, here):
     each = [found.told["protocols"]["strict"]["mean_mm"] for found in outcome.of("affine", "strict")]
     assert row["seeds"] == 3
     assert row["mean_mm"] == pytest.approx(np.mean(each), rel=1e-3)
-    assert row["mean_mm_std"] == pytest.approx(np.std(each), rel=1e-3)
+    assert row["mean_mm_std"] == pytest.approx(np.std(each, ddof=1), rel=1e-3)
+    assert row["mean_mm_seeds"] == pytest.approx(each, rel=1e-3)
+    largest = [found.told["protocols"]["strict"]["max_mm"] for found in outcome.of("affine", "strict")]
+    assert row["max_mm"] == pytest.approx(max(largest), rel=1e-3)
+    assert max(largest) > 1.001 * np.mean(largest)
+
+
+def test_errors_over_the_distance_are_kept_by_unit(data, store):
+    fields, thin = ("position", "cauchy_stress"), {"modes": 2, "members": 1, "steps": 20}
+    (asked, _) = taught_twice("m", "neural_modes", corners(data), data.size, options=thin, asked=fields)
+    found = run_trial(asked, {"ensemble": store})
+    for unit, figure in (("mm", "mean_mm"), ("mpa", "von_mises_mean_mpa")):
+        distance, error = found.arrays[f"far_{unit}_off_grid"]
+        assert error.mean() == pytest.approx(found.told["protocols"]["off_grid"][figure], rel=1e-5)
+        assert (distance > 0).all()
+
+
+def test_sensors_are_other_ones_for_another_seed(data, store):
+    grey = []
+    for seed in (0, 1):
+        (asked, _) = taught_twice("a", "affine", corners(data), data.size)
+        found = run_trial(replace(asked, seed=seed), {"ensemble": store})
+        grey.append(set(np.flatnonzero(np.isnan(found.arrays["node_mm_off_grid"]))))
+    assert len(grey[0]) == len(grey[1]) == 9
+    assert grey[0] != grey[1]
+
+
+def test_drawn_cases_are_not_tested_on_those_that_teach(data):
+    asked = Trial("a", "pod_gp", corners(data), "off_grid")
+    assert asked.tested == ("thesis", "off_grid")
+    assert replace(asked, drawn=Drawn(8, "random")).tested == ("off_grid",)
 
 
 def test_another_store_can_hold_the_truth(data, store):
@@ -105,7 +135,7 @@ def test_a_graph_keeps_its_nodes_and_its_curve(data, store):
     nodes = found.arrays["node_mm_thesis"]
     assert np.isnan(nodes).sum() == 9
     assert np.nanmean(nodes) == pytest.approx(found.told["protocols"]["thesis"]["mean_mm"], rel=1e-5)
-    distance, error = found.arrays["far_off_grid"]
+    distance, error = found.arrays["far_mm_off_grid"]
     assert (distance > 0).all()
     assert error.mean() == pytest.approx(found.told["protocols"]["off_grid"]["mean_mm"], rel=1e-5)
 

@@ -1,6 +1,7 @@
 """Finished sections lie on a shelf: whole, of one preset, of one version."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -48,6 +49,39 @@ def test_results_are_the_rows_of_all_finished_sections_in_the_order_of_the_chapt
     assert told["preset"] == "tiny"
     assert list(told["sections"]) == ["6.2.1", "meshes"]
     assert told["sections"]["meshes"] == {"rows": MADE.rows, "seconds": 2.0, "provenance": {"seeds": "0"}}
+
+
+def test_of_a_section_only_what_differs_from_the_run_is_told(shelf):
+    own = {"seeds": "0", "versions": "torch 2.1", "arm": "abc"}
+    shelf.put("6.2.1", "key", replace(MADE, provenance=own))
+    run = {"versions": "torch 2.2", "arm": "abc"}
+    shelf.write_results(run)
+    told = json.loads((shelf.out / "results.json").read_text())
+    assert told["provenance"] == run
+    assert told["sections"]["6.2.1"]["provenance"] == {"seeds": "0", "versions": "torch 2.1"}
+    assert shelf.all(run)["6.2.1"].provenance == {"seeds": "0", "versions": "torch 2.1"}
+    kept = shelf.get("6.2.1")
+    assert kept is not None
+    assert kept.provenance == own
+
+
+def test_what_a_kill_left_is_swept_and_nothing_else(shelf):
+    shelf.put("6.2.1", "key", MADE)
+    shelf.write_results({})
+    kept = {path.relative_to(shelf.out) for path in shelf.out.rglob("*")}
+    for name in (".report.html-a1", ".results.json-a2", ".reproduce.json-a3"):
+        (shelf.out / name).write_bytes(b"half")
+    old = shelf.out / "sections" / ".6.2.1-a4" / "old"
+    old.mkdir(parents=True)
+    (old / "section.json").write_bytes(b"half")
+    mine = {shelf.out / ".notes-1", shelf.out / "sections" / ".6.2.9-1"}
+    for path in mine:
+        path.write_text("mine")
+    shelf.prepare()
+    assert {path.relative_to(shelf.out) for path in shelf.out.rglob("*")} == kept | {
+        path.relative_to(shelf.out) for path in mine
+    }
+    assert shelf.get("6.2.1") == MADE
 
 
 def test_a_folder_of_another_preset_is_refused(shelf):

@@ -31,7 +31,8 @@ def test_a_column_without_any_figure_is_not_known():
 
 
 @pytest.mark.parametrize(
-    ("value", "text"), [(0.0001234, "< 0.001"), (0.00123, "0.00123"), (999.4, "999"), (12345.6, "12,346"), (0.0, "0")]
+    ("value", "text"),
+    [(0.0001234, "< 0.001"), (0.00123, "0.00123"), (999.4, "999"), (999.6, "1,000"), (12345.6, "12,346"), (0.0, "0")],
 )
 def test_numbers_have_three_digits_or_groups(value, text):
     assert number(value) == text

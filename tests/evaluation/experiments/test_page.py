@@ -36,9 +36,16 @@ def test_a_section_shows_its_table_its_figures_and_what_the_thesis_found():
 
 def test_what_the_thesis_concludes_is_judged_first():
     names = ("16, latent 1", "32-32, latent 32")
-    rows = [{"name": name, "protocol": "thesis", "mean_mm": 10.0 / (1 + k)} for k, name in enumerate(names)]
+    errors = (10.0, 5.0)
+    rows = [
+        {"name": name, "protocol": "thesis", "mean_mm": error, "mean_mm_seeds": [error, error]}
+        for name, error in zip(names, errors, strict=True)
+    ]
     page = chapter_page("Title", {"6.2.4": made(rows=rows)}, {})
-    evidence = "10 mm (16, latent 1), 5 mm (32-32, latent 32): 2 times; holds for at least 1.1 times"
+    evidence = (
+        "10 mm (16, latent 1), 5 mm (32-32, latent 32), thesis: 2 times (2 to 2 over 2 seeds); "
+        "holds for at least 1.1 times"
+    )
     assert ["A latent space of 1 is worse", "6.2.4", "holds", evidence] in Page(page).rows
     assert page.index("What of the thesis holds here") < page.index(SECTIONS["6.2.4"].heading)
     assert "What of the thesis holds here" not in chapter_page("Title", {"6.2.2": made()}, {})

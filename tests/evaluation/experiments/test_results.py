@@ -34,15 +34,15 @@ def test_a_section_becomes_a_table():
 
 
 def test_what_the_thesis_concludes_is_judged():
-    section = {"rows": rows("gen_thesis_343, displacement", 1.0) + rows("gen_thesis_343, coordinates", 2.0)}
+    section = {"rows": [row("gen_thesis_343, displacement", 1.0), row("gen_thesis_343, coordinates", 2.0)]}
     page = results_page(RESULTS | {"sections": {"6.2.2": section | {"seconds": 1.0}}})
     assert "## What of the thesis holds here" in page
     assert "| 6.2.2 | does not hold | 1 mm (gen_thesis_343, displacement), 2 mm" in page
     assert "What of the thesis holds" not in results_page(RESULTS)
 
 
-def rows(name, error):
-    return [{"name": name, "protocol": "thesis", "mean_mm": error}]
+def row(name, error):
+    return {"name": name, "protocol": "thesis", "mean_mm": error, "mean_mm_seeds": [error, error]}
 
 
 def test_results_of_something_else_are_refused():

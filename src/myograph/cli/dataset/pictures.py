@@ -28,17 +28,19 @@ def draw_card_figure(store: Path) -> bool:
     except ModuleNotFoundError:
         return False
     plan = read_plan(store)
-    cases = open_cases(store)
-    done = cases["state"].values == "done"
-    if not done.any():
+    if not (open_cases(store)["state"].values == "done").any():
         return False
     muscle = SHOWN if SHOWN in plan.muscles else plan.muscles[0]
     field = "von_mises" if "von_mises" in plan.fields else "displacement"
-    activations = {name: cases["activation"].values[:, k] for k, name in enumerate(MUSCLES)}
-    angles = np.degrees(cases["elbow_angle"].values)
-    picture = draw_card(angles, activations, painted_states(read_muscle(store, muscle), field))
+    picture = card_picture(read_muscle(store, muscle), field)
     write_whole(store / FIGURE, lambda file: file.write(picture))
     return True
+
+
+def card_picture(cases: MuscleCases, field: str) -> bytes:
+    """PNG of the answered cases at a glance, the muscle painted by a scalar field."""
+    activations = {name: cases.activation[:, k] for k, name in enumerate(MUSCLES)}
+    return draw_card(np.degrees(cases.elbow_angle), activations, painted_states(cases, field))
 
 
 def field_picture(store: Path, muscle: str, field: str | None) -> bytes:

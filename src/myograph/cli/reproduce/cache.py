@@ -6,7 +6,6 @@ what wrote the folder; one of another format or version is made anew.
 
 import json
 import shutil
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,9 +14,9 @@ from typing import Any, BinaryIO
 import numpy as np
 
 import myograph
-from myograph.files import write_whole
+from myograph.files import sweep, write_whole
 
-FORMAT = 1
+FORMAT = 2
 """Of what a trial says; a change of what is measured is a change of the format."""
 VERSION = "format.json"
 TOLD = "told"
@@ -46,24 +45,32 @@ class Cache:
     folder: Path
 
     def prepare(self) -> bool:
-        """Make the folder what this version writes; whether another version's was thrown away."""
+        """Make the folder what this version writes; whether another version's was thrown away.
+
+        What was left half-written goes; trainings under `running` stay, they are gone on with.
+        """
         mark = self.folder / VERSION
         stale = self.folder.exists() and _read_json(mark) != _version()
         if stale:
             shutil.rmtree(self.folder)
         if not mark.exists():
             write_whole(mark, lambda file: file.write(json.dumps(_version()).encode()))
-        for aside in self.folder.glob(".*.npz-*"):
-            aside.unlink(missing_ok=True)
+        sweep(self.folder, VERSION, "*.npz")
         return stale
 
     def get(self, key: str) -> Found | None:
-        """What is kept; None where there is nothing, or where it cannot be read."""
+        """What is kept; None where there is nothing, or where it cannot be read.
+
+        What a damaged archive raises depends on the byte: nearly anything of zipfile, zlib and NumPy.
+        """
+        path = self._path(key)
         try:
-            with np.load(self._path(key)) as file:
-                arrays = {name: file[name] for name in file.files if name != TOLD}
-                return Found(json.loads(file[TOLD].tobytes()), arrays)
-        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+            with np.load(path) as file:
+                arrays = {name: file[name] for name in file.files}
+                if len(arrays) != _members(path):
+                    return None
+                return Found(json.loads(arrays.pop(TOLD).tobytes()), arrays)
+        except Exception:
             return None
 
     def put(self, key: str, found: Found) -> None:
@@ -77,6 +84,14 @@ class Cache:
 
     def _path(self, key: str) -> Path:
         return self.folder / f"{key}.npz"
+
+
+def _members(path: Path) -> int:
+    """How many arrays the last record of an archive counts.
+
+    Reading an array checks its sum; one whose entry in the directory is damaged may be passed over in silence.
+    """
+    return int.from_bytes(path.read_bytes()[-12:-10], "little")
 
 
 def _version() -> dict[str, Any]:

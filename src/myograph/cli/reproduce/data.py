@@ -25,6 +25,7 @@ from myograph.cli.reproduce.trial import MUSCLE
 from myograph.ensemble.design import Design, DesignSpec, make_design
 from myograph.ensemble.here import compute_here
 from myograph.ensemble.muscle_cases import MuscleCases
+from myograph.ensemble.pairs.protocols import FACTORIAL, OFF_GRID, SUPPORT
 from myograph.ensemble.simulators import IMPORT
 from myograph.ensemble.spec import SimulatorSpec
 from myograph.ensemble.store.making import make_store, plan_store
@@ -46,11 +47,12 @@ CONTINUOUS, TESTS, HALVES, TENTHS, AT_A_STEP = "continuous", "off_grid", "halves
 
 @dataclass(frozen=True)
 class Places:
-    """Where things lie: the folder of the run; a store and tables of somebody else, if they are to be used."""
+    """Where things lie: the folder of the run; a store, tables and an arm of somebody else, if they are to be used."""
 
     out: Path
     store: Path | None = None
     tables: Path | None = None
+    arm: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -73,13 +75,16 @@ class Data:
     def cases(self, name: str) -> MuscleCases:
         """The biceps in a store; simulates what is missing."""
         if name not in self._opened:
-            if name != "ensemble" or self.places.store is None:
+            given = name == "ensemble" and self.places.store is not None
+            if not given:
                 _MAKERS[name](self)
             found = read_muscle(self.path(name), MUSCLE)
             told = found.attributes.get("preset")
             if told in ("tiny", "quick", "thesis") and told != self.preset:
                 raise InputError(f"{self.path(name)}: expected cases of preset '{self.preset}', got '{told}'")
             self._check_arm(name, found)
+            if given:
+                self._check_designs(found)
             self._opened[name] = found
         return self._opened[name]
 
@@ -90,6 +95,15 @@ class Data:
             raise InputError(
                 f"{self.path(name)}: expected cases of the arm {wanted[:16]}, got those of {str(found)[:16]}; name "
                 "their arm by --arm"
+            )
+
+    def _check_designs(self, cases: MuscleCases) -> None:
+        """Raise InputError for cases without one of the designs that teach and test."""
+        lacking = [word for word in (FACTORIAL, SUPPORT, OFF_GRID) if not len(cases.named(word))]
+        if lacking:
+            raise InputError(
+                f"{self.places.store}: expected cases of the designs {FACTORIAL}, {SUPPORT} and {OFF_GRID}, got none "
+                f"of {', '.join(lacking)}; simulate them too, or leave out --store"
             )
 
     def numbers(self, name: str, *words: str) -> tuple[int, ...]:

@@ -10,13 +10,15 @@ from jaxtyping import Float
 from myograph.cli.reproduce.cache import Found
 from myograph.cli.reproduce.data import Data
 from myograph.cli.reproduce.sizes import Size
-from myograph.cli.reproduce.trial import TESTED, Trial
+from myograph.cli.reproduce.trial import Trial
 from myograph.cli.reproduce.weighing import lacks_c
 from myograph.ensemble.pairs.protocols import PROTOCOLS, Protocol
 from myograph.evaluation import ErrorSummary, Figure
 
 Row = dict[str, Any]
 DIGITS = 4
+SPREAD = ("mean_mm", "von_mises_mean_mpa")
+"""Figures whose spread over the seeds is told, and their value for each seed."""
 MEASURED = ("seconds", "predict_ms", "weights_kb", "onnx_kb", "onnx_ms", "c_kb", "c_int8_kb", "c_ms")
 """Of a method, whatever the protocol."""
 
@@ -52,7 +54,7 @@ class Outcome:
     def of(self, name: str, protocol: Protocol) -> list[Found]:
         """What was found under a protocol, a seed each."""
         pairs = zip(self.trials, self.found, strict=True)
-        return [found for trial, found in pairs if found and trial.name == name and protocol in TESTED[trial.teaching]]
+        return [found for trial, found in pairs if found and trial.name == name and protocol in trial.tested]
 
     def mean(self, name: str, protocol: Protocol, figure: str = "mean_mm") -> float:
         """Of a figure over the seeds; NaN where there is none."""
@@ -62,9 +64,9 @@ class Outcome:
     def values(
         self, names: Sequence[str], protocol: Protocol, figure: str = "mean_mm"
     ) -> tuple[Float[np.ndarray, " rows"], Float[np.ndarray, " rows"]]:
-        """Means and deviations over the seeds, of several rows."""
+        """Means and sample standard deviations over the seeds, of several rows; 0 where a seed is alone."""
         each = [[f.told["protocols"][protocol].get(figure, np.nan) for f in self.of(name, protocol)] for name in names]
-        return np.array([np.mean(own) for own in each]), np.array([np.std(own) for own in each])
+        return np.array([np.mean(own) for own in each]), np.array([_deviation(own) for own in each])
 
     def array(self, name: str, protocol: Protocol, which: str) -> np.ndarray | None:
         """An array of the first seed, its name before the protocol; None where there is none."""
@@ -88,7 +90,10 @@ Figures = Callable[[Outcome], tuple[Figure, ...]]
 
 
 def table_rows(outcome: Outcome) -> list[Row]:
-    """A row for each name and protocol: means over the seeds, and their deviation where there are several."""
+    """A row for each name and protocol: means over the seeds, and their spread where there are several.
+
+    Of largest errors the largest is taken.
+    """
     rows: list[Row] = []
     for name in outcome.names:
         if name in outcome.left_out:
@@ -109,13 +114,14 @@ def finished(trials: Sequence[Trial], rows: Sequence[Mapping[str, Any]]) -> bool
     return not any("left_out" in row for row in rows) and not any(lacks_c(trial, own[trial.name]) for trial in trials)
 
 
-def _figures(found: Sequence[Found], protocol: Protocol) -> dict[str, float | int]:
-    figures: dict[str, float | int] = {}
+def _figures(found: Sequence[Found], protocol: Protocol) -> dict[str, float | int | list[float]]:
+    figures: dict[str, float | int | list[float]] = {}
     for key in found[0].told["protocols"][protocol]:
         values = [own.told["protocols"][protocol][key] for own in found]
-        figures[key] = rounded(float(np.mean(values)))
-        if len(found) > 1 and key in ("mean_mm", "von_mises_mean_mpa"):
-            figures[f"{key}_std"] = rounded(float(np.std(values)))
+        figures[key] = rounded(float(max(values) if "_max_" in f"_{key}" else np.mean(values)))
+        if len(found) > 1 and key in SPREAD:
+            figures[f"{key}_std"] = rounded(_deviation(values))
+            figures[f"{key}_seeds"] = [rounded(value) for value in values]
     for key in ("taught", "stored", "multiply_adds"):
         if key in found[0].told:
             figures[key] = int(found[0].told[key])
@@ -123,6 +129,10 @@ def _figures(found: Sequence[Found], protocol: Protocol) -> dict[str, float | in
         if key in found[0].told:
             figures[key] = rounded(float(np.mean([own.told[key] for own in found])))
     return figures
+
+
+def _deviation(values: Sequence[float]) -> float:
+    return float(np.std(values, ddof=1)) if len(values) > 1 else 0.0
 
 
 def rounded(value: float) -> float:

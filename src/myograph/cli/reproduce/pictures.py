@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
+from myograph.cli.dataset.pictures import card_picture
 from myograph.cli.reproduce.outcome import Outcome
 from myograph.ensemble.pairs.protocols import Protocol
 from myograph.evaluation import Figure
@@ -18,6 +19,17 @@ from myograph.view.palette import SERIES_COLOURS
 
 BINS = 8
 """Of distances from the training set."""
+
+
+def dataset(outcome: Outcome, as_in: str) -> Figure:
+    """The cases at a glance: elbow angles, activations, the muscle where it is least and most active."""
+    caption = (
+        f"The cases (figures {as_in} of the thesis): elbow angles at equilibrium, how many cases have an activation of "
+        "each class, and the biceps in the cases of its least and its largest activation."
+    )
+    cases = outcome.data.cases("ensemble")
+    field = "von_mises" if "von_mises" in cases.fields else "displacement"
+    return Figure(caption, card_picture(cases, field), caption)
 
 
 def meshes(outcome: Outcome, names: Sequence[str], as_in: str) -> Figure:
@@ -36,33 +48,38 @@ def meshes(outcome: Outcome, names: Sequence[str], as_in: str) -> Figure:
     return Figure(caption, draw_network_nodes(before, after, cloud), "Nodes of the graphs before and after training")
 
 
-def heat(outcome: Outcome, names: Sequence[str], protocol: Protocol, unit: str, as_in: str) -> tuple[Figure, ...]:
-    """Mean error of each node on the skin; no figure for a body without one."""
+def heat(
+    outcome: Outcome, names: Sequence[str], protocol: Protocol, unit: str, as_in: str | None = None
+) -> tuple[Figure, ...]:
+    """Mean error of each node on the skin, as in that figure of the thesis; no figure for a body without a skin."""
     body = outcome.data.cases(outcome.trials[0].cases.store).body
     found = {name: outcome.array(name, protocol, f"node_{unit}_{protocol}") for name in names}
     errors = {name.replace(", ", ",\n"): values for name, values in found.items() if values is not None}
     if not errors or not len(body.skin):
         return ()
     picture = draw_heat_maps(body.reference, body.skin, errors, "MPa" if unit == "mpa" else unit)
-    caption = f"Where the errors sit, protocol {protocol} (figure {as_in} of the thesis); sensors are grey."
-    return (Figure(caption, picture, "Heat maps of the error on the biceps"),)
+    thesis = f" (figure {as_in} of the thesis)" if as_in else ""
+    caption = f"Where the errors sit, protocol {protocol}{thesis}; sensors are grey."
+    return (Figure(caption, picture, f"Heat maps of the error on the biceps: {'; '.join(found)}"),)
 
 
 def dots(outcome: Outcome, caption: str) -> Figure:
     """Mean and 95th percentile of all methods."""
-    return Figure(caption, draw_error_dots(outcome.summaries()), "Dots of errors by method and protocol")
+    alt = f"Mean and 95th percentile of the error under each protocol: {'; '.join(outcome.names)}"
+    return Figure(caption, draw_error_dots(outcome.summaries()), alt)
 
 
 def far(outcome: Outcome, names: Sequence[str], protocol: Protocol, unit: str = "mm") -> Figure:
     """Error over the distance of the asked activations from those that taught."""
     bands = []
     for name in names:
-        found = outcome.array(name, protocol, f"far_{protocol}")
+        found = outcome.array(name, protocol, f"far_{unit.lower()}_{protocol}")
         if found is not None:
             bands.append(_binned(name, found))
     axes = Axes("distance of the activations from the nearest that taught [-]", f"mean error of a pair [{unit}]")
     caption = f"Error over the distance from the training set, protocol {protocol}; bands: half of the pairs."
-    return Figure(caption, draw_bands(bands, axes), "Error over the distance from the training set")
+    alt = f"Mean error over the distance from the training set: {'; '.join(band.name for band in bands)}"
+    return Figure(caption, draw_bands(bands, axes), alt)
 
 
 def curves(outcome: Outcome, caption: str) -> Figure:
@@ -73,7 +90,7 @@ def curves(outcome: Outcome, caption: str) -> Figure:
         rmse = np.stack([curve[1] for curve in each])
         bands.append(Band(name, each[0][0], rmse.mean(axis=0), rmse.min(axis=0), rmse.max(axis=0)))
     axes = Axes("training step", "RMSE of the batches [mm]", marked=False)
-    return Figure(caption, draw_bands(bands, axes), "Training curves with bands over seeds")
+    return Figure(caption, draw_bands(bands, axes), f"Training curves with bands: {'; '.join(outcome.names)}")
 
 
 def over(

@@ -8,7 +8,7 @@ report.html
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,7 @@ from myograph.cli.reproduce.registry import EXPERIMENTS
 from myograph.errors import InputError
 from myograph.evaluation import Figure
 from myograph.evaluation.experiments.page import Made
-from myograph.files import write_whole, write_whole_folder
+from myograph.files import sweep, write_whole, write_whole_folder
 
 MARK, RESULTS, REPORT = "reproduce.json", "results.json", "report.html"
 
@@ -31,7 +31,10 @@ class Shelf:
     preset: str
 
     def prepare(self) -> None:
-        """Make the folder ours; raises InputError for one of another preset, and where nothing can be written."""
+        """Make the folder ours, without what killed runs left half-written.
+
+        Raises InputError for a folder of another preset, and where nothing can be written.
+        """
         told = {"preset": self.preset, "format": FORMAT, "myograph": myograph.__version__}
         found = _read(self.out / MARK)
         if found is not None and found.get("preset") != self.preset:
@@ -43,6 +46,8 @@ class Shelf:
             raise InputError(f"{self.out}: expected a new folder or one of 'myograph reproduce'; choose another --out")
         if found != told:
             write_whole(self.out / MARK, lambda file: file.write(json.dumps(told).encode()))
+        sweep(self.out, MARK, RESULTS, REPORT)
+        sweep(self.out / "sections", *EXPERIMENTS)
 
     def get(self, name: str, key: str | None = None) -> Made | None:
         """A finished section, of this key if one is given; None where there is none of this version."""
@@ -73,19 +78,24 @@ class Shelf:
 
         write_whole_folder(self.out / "sections" / name, write)
 
-    def all(self) -> dict[str, Made]:
-        """All finished sections, in the order of the report."""
-        return {name: made for name in EXPERIMENTS if (made := self.get(name)) is not None}
+    def all(self, run: Mapping[str, str]) -> dict[str, Made]:
+        """All finished sections, in the order of the report; of their provenance what is not that of the run."""
+        found = {name: made for name in EXPERIMENTS if (made := self.get(name)) is not None}
+        return {name: replace(made, provenance=_beside(made.provenance, run)) for name, made in found.items()}
 
     def write_results(self, provenance: Mapping[str, str]) -> None:
-        """Write the rows of all finished sections."""
+        """Write the rows of all finished sections, and the provenance of the run."""
         sections = {
             name: {"rows": list(made.rows), "seconds": made.seconds, "provenance": dict(made.provenance)}
-            for name, made in self.all().items()
+            for name, made in self.all(provenance).items()
         }
         told = {"preset": self.preset, "provenance": dict(provenance), "sections": sections}
         text = json.dumps(told, indent=1) + "\n"
         write_whole(self.out / RESULTS, lambda file: file.write(text.encode()))
+
+
+def _beside(own: Mapping[str, str], run: Mapping[str, str]) -> dict[str, str]:
+    return {key: value for key, value in own.items() if run.get(key) != value}
 
 
 def _version() -> list[Any]:

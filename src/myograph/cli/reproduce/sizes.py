@@ -21,8 +21,8 @@ class Size:
         Cases that are solved by finite elements, each of them.
     steps
         Training steps of a small graph; `share` says what larger ones get.
-    thesis_steps
-        Steps at the thesis's own rates: 990 epochs of 4.
+    thesis_steps, benchmark_steps
+        Steps at the thesis's own rates, 990 epochs of 4; and of the feed-forward benchmark, whose steps are dear.
     large, complexity
         Nodes per axis of the larger graph, and of the graph of section 6.2.4.
     seeds
@@ -42,6 +42,7 @@ class Size:
     direct_off_grid: int
     steps: int
     thesis_steps: int
+    benchmark_steps: int
     large: int
     complexity: int
     seeds: int
@@ -57,13 +58,13 @@ class Size:
 
 
 SIZES = {
-    "tiny": Size(50, 64, 12, 8, 4, 60, 120, 3, 3, 2, 48, (2, 3), (4, 9), (8, 32), 1),
+    "tiny": Size(50, 64, 12, 8, 4, 60, 120, 30, 3, 3, 2, 48, (2, 3), (4, 9), (8, 32), 1),
     "quick": Size(
-        55, 512, 64, 16, 8, 1000, 3960, 7, 4, 3, 256, (2, 3, 4, 5, 7), (3, 5, 9, 18, 36, 72),
+        55, 512, 64, 16, 8, 1000, 3960, 500, 7, 4, 3, 256, (2, 3, 4, 5, 7), (3, 5, 9, 18, 36, 72),
         (8, 16, 32, 64, 128, 256), 6,
     ),
     "thesis": Size(
-        55, 1743, 128, 32, 64, 6000, 3960, 7, 7, 3, 512, (2, 3, 4, 5, 7, 9), (3, 5, 9, 18, 36, 72, 144),
+        55, 1743, 128, 32, 64, 3000, 3960, 1000, 7, 7, 3, 512, (2, 3, 4, 5, 7), (3, 5, 9, 18, 36, 72, 144),
         (8, 16, 32, 64, 128, 256, 512, 1024), 6,
     ),
 }  # fmt: skip

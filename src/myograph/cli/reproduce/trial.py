@@ -59,10 +59,10 @@ class Trial:
         As `myograph.learning.learners` knows them.
     teaching
         Which split teaches: that of `off_grid` or that of `strict`.
-    sensors, placing
-        How many, and whether they lie at random or by pivoted QR of the modes.
+    sensors
+        How many, at random.
     seed
-        Of the split and of the training.
+        Of the sensors, the split and the training.
     pairs
         Test pairs of a protocol, at most.
     weighed
@@ -81,11 +81,15 @@ class Trial:
     known: tuple[str, ...] = ("position",)
     asked: tuple[str, ...] = ("position",)
     sensors: int = 9
-    placing: Literal["random", "qr"] = "random"
     seed: int = 0
     pairs: int = 256
     weighed: bool = False
     drawn: Drawn | None = None
+
+    @property
+    def tested(self) -> tuple[Protocol, ...]:
+        """The protocols that are fair to it; where cases are drawn, those of `thesis` would be the ones that teach."""
+        return tuple(each for each in TESTED[self.teaching] if self.drawn is None or each != "thesis")
 
     def key(self, checksums: Mapping[str, str]) -> str:
         """Checksum of all that the outcome depends on, its name aside; `checksums` are those of the stores."""

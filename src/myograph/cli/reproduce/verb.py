@@ -4,8 +4,8 @@ import hashlib
 import json
 import os
 import shlex
-import sys
 import time
+from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
@@ -21,7 +21,7 @@ from myograph.cli.reproduce.sizes import reproduction_size
 from myograph.errors import InputError, MissingPackageError
 
 if TYPE_CHECKING:
-    from myograph.cli.reproduce.data import Data, Places
+    from myograph.cli.reproduce.data import Places
     from myograph.cli.reproduce.runner import Runner
     from myograph.cli.reproduce.shelf import Shelf
 
@@ -44,7 +44,8 @@ def reproduce(
         "myograph-reproduce"
     ),
     store: Annotated[
-        Path | None, typer.Option(help="Store of cases to use instead of simulating: with 'factorial', 'off_grid'.")
+        Path | None,
+        typer.Option(help="Store of cases to use instead of simulating: with 'factorial', 'support', 'off_grid'."),
     ] = None,
     tables: Annotated[Path | None, typer.Option(help="Folder of tables to use instead of solving them.")] = None,
     arm_file: ArmFile = None,
@@ -57,7 +58,8 @@ def reproduce(
     """
     from myograph.cli.reproduce.data import Places
 
-    result = run_reproduction(read_arm(arm_file), preset, section or [], Places(out, store, tables), Steps())
+    places = Places(out, store, tables, arm_file)
+    result = run_reproduction(read_arm(arm_file), preset, section or [], places, Steps())
     if json:
         print_json(result)
         return
@@ -87,18 +89,21 @@ def run_reproduction(arm: Arm, preset: str, sections: list[str], places: "Places
     if cache.prepare():
         steps.console.print("the cache is of another version of myograph: it is made anew")
     data = Data(arm, preset, size, places, steps)
+    if places.store is not None:
+        data.cases("ensemble")
     steps.console.print(plan(preset, wanted, places.tables is None))
-    runner, provenance = Runner(data, cache, steps), _provenance(arm, preset)
+    runner, made_with = Runner(data, cache, steps), _made_with(arm)
+    provenance = {"last command": _command(sections, preset, places), "preset": preset, **made_with}
     for name in wanted:
-        _make(name, data, runner, shelf)
+        _make(name, runner, shelf, made_with)
         shelf.write_results(provenance)
-        write_chapter(f"Chapter 6 again, preset {preset}", shelf.all(), provenance, places.out / REPORT)
+        write_chapter(f"Chapter 6 again, preset {preset}", shelf.all(provenance), provenance, places.out / REPORT)
     made = {name: shelf.get(name) for name in wanted}
     told = {name: {"rows": list(own.rows), "seconds": own.seconds} for name, own in made.items() if own is not None}
     return {"sections": told, "report": str(places.out / REPORT)}
 
 
-def _make(name: str, data: "Data", runner: "Runner", shelf: "Shelf") -> None:
+def _make(name: str, runner: "Runner", shelf: "Shelf", made_with: Mapping[str, str]) -> None:
     """One section, unless it lies there already with all that can be had."""
     from myograph.cli.reproduce.outcome import finished, rounded
     from myograph.cli.reproduce.registry import EXPERIMENTS
@@ -106,7 +111,7 @@ def _make(name: str, data: "Data", runner: "Runner", shelf: "Shelf") -> None:
     from myograph.evaluation.page import duration
 
     started = time.monotonic()
-    experiment = EXPERIMENTS[name]
+    experiment, data = EXPERIMENTS[name], runner.data
     trials = experiment.trials(data, data.size)
     told = [[trial.name for trial in trials], runner.keys(trials)]
     key = hashlib.sha256(json.dumps(told).encode()).hexdigest()
@@ -118,32 +123,34 @@ def _make(name: str, data: "Data", runner: "Runner", shelf: "Shelf") -> None:
         figures = experiment.figures(outcome)
     stores = sorted({store for trial in trials for store in (trial.cases.store, trial.cases.truth) if store})
     provenance = {
-        "command": f"myograph reproduce --section {name} --preset {data.preset}{_given(data.places)}",
+        "command": _command([name], data.preset, data.places),
         "seeds": ", ".join(map(str, sorted({trial.seed for trial in trials}))),
         "data": ", ".join(f"{store} {data.cases(store).checksum[:16]}" for store in stores),
         "time taken": duration(time.monotonic() - started),
+        **made_with,
     }
     shelf.put(name, key, Made(experiment.rows(outcome), figures, rounded(outcome.seconds), provenance))
 
 
-def _given(places: "Places") -> str:
-    """Options that name what was not made here."""
-    options = {"--store": places.store, "--tables": places.tables}
-    return "".join(f" {option} {path.name}" for option, path in options.items() if path is not None)
+def _command(sections: Sequence[str], preset: str, places: "Places") -> str:
+    """What makes the sections again, in a new folder; of a path the last part is told."""
+    asked = [part for name in sections for part in ("--section", name)]
+    options = {"--store": places.store, "--tables": places.tables, "--arm": places.arm}
+    given = [part for option, path in options.items() if path is not None for part in (option, path.absolute().name)]
+    return shlex.join(["myograph", "reproduce", *asked, "--preset", preset, *given])
 
 
-def _provenance(arm: Arm, preset: str) -> dict[str, str]:
+def _made_with(arm: Arm) -> dict[str, str]:
+    """Arm, machine and versions of this run."""
     found = []
     for package in _VERSIONS:
         try:
             found.append(f"{package} {version(package)}")
         except PackageNotFoundError:
             continue
-    command = shlex.join(["myograph", *(Path(part).name if "/" in part else part for part in sys.argv[1:])])
     load = f", {os.getloadavg()[0]:.0f} jobs at once as it began" if hasattr(os, "getloadavg") else ""
     machine = f"{os.cpu_count()} processors{load}"
-    told = {"last command": command, "preset": preset, "arm": arm_checksum(arm), "machine": machine}
-    return {**told, "versions": ", ".join(found)}
+    return {"arm": arm_checksum(arm), "machine": machine, "versions": ", ".join(found)}
 
 
 def _check_installed(places: "Places") -> None:

@@ -34,7 +34,7 @@ def figures(outcome: Outcome) -> tuple[Figure, ...]:
     shown = [f"{method}, {where}" for method in ("gen_thesis_8", "neural_modes") for where in ("direct", "table")]
     return (
         dots(outcome, "Taught on direct finite elements or on the table, tested on direct finite elements."),
-        *heat(outcome, shown, "off_grid", "mm", "6.2 f"),
+        *heat(outcome, shown, "off_grid", "mm"),
     )
 
 

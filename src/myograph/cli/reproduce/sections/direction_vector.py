@@ -16,13 +16,13 @@ FEATURES = ("coordinates", "displacement", "direction_and_scale")
 def trials(data: Data, size: Size) -> Sequence[Trial]:
     """The thesis's network, both meshes, with each feature in and out."""
     few = corners(data)
-    rows = [taught_twice("do_nothing", "do_nothing", few, size)]
+    rows = [taught_twice("do_nothing", "do_nothing", few, size, size.seeds)]
     for axis in (2, size.large):
         for feature in FEATURES:
             plain = {"inputs": ((feature,),), "outputs": ((feature,),)} if feature != "coordinates" else {}
             options, training = {"nodes_per_axis": axis, **plain}, {"steps": size.share(axis)}
             name = f"gen_thesis_{axis**3}, {feature}"
-            rows.append(taught_twice(name, "gen_thesis", few, size, options=options, training=training))
+            rows.append(taught_twice(name, "gen_thesis", few, size, size.seeds, options=options, training=training))
     return [trial for row in rows for trial in row]
 
 
