@@ -10,7 +10,7 @@ from myograph.cli.reproduce import runner as running
 from myograph.cli.reproduce import weighing
 from myograph.cli.reproduce.cache import Cache, Found
 from myograph.cli.reproduce.experiment import corners, taught_twice
-from myograph.cli.reproduce.outcome import finished, table_rows
+from myograph.cli.reproduce.outcome import Outcome, finished, table_rows
 from myograph.cli.reproduce.runner import Runner
 from myograph.cli.reproduce.trial import Chosen, Drawn, Trial
 from myograph.cli.reproduce.trying import cases_of, run_trial, split_of
@@ -60,6 +60,23 @@ def test_an_error_keeps_what_is_finished(runner, data, here, monkeypatch):
     assert here == ["affine", "affine"]
 
 
+def test_strict_may_have_fewer_seeds(data):
+    asked = taught_twice("gen", "gen", corners(data), data.size, seeds=2, training={"steps": 12})
+    each = [(trial.teaching, trial.seed, trial.training["seed"]) for trial in asked]
+    assert each == [("off_grid", 0, 0), ("strict", 0, 0), ("off_grid", 1, 1)]
+
+
+def test_a_training_that_was_gone_on_with_has_no_time(data, store, tmp_path):
+    asked = taught_twice("gen", "gen", corners(data), data.size, training={"steps": 12})[0]
+    whole, gone_on_with = (run_trial(asked, {"ensemble": store}, tmp_path / "training") for _ in range(2))
+    assert whole.told["protocols"] == gone_on_with.told["protocols"]
+    assert whole.told["seconds"] > 0
+    assert "seconds" not in gone_on_with.told
+    outcome = Outcome(data, data.size, [asked, replace(asked, seed=1)], [gone_on_with, whole], {})
+    assert outcome.seconds == whole.told["seconds"]
+    assert table_rows(outcome)[0]["seconds"] == pytest.approx(whole.told["seconds"], rel=1e-3)
+
+
 def test_a_missing_package_leaves_a_row_with_its_reason(runner, data, here, monkeypatch):
     def missing(*_):
         raise MissingPackageError("torch-geometric", "train", "the processor 'GCNConv'")
@@ -73,7 +90,7 @@ def test_a_missing_package_leaves_a_row_with_its_reason(runner, data, here, monk
 
 
 def test_seeds_become_a_mean_and_a_deviation(runner, data, here):
-    trials = taught_twice("affine", "affine", corners(data), data.size, seeds=3)
+    trials = taught_twice("affine", "affine", corners(data), data.size, seeds=3, strict_seeds=3)
     outcome = runner.run("a", trials)
     row = table_rows(outcome)[1]
     each = [found.told["protocols"]["strict"]["mean_mm"] for found in outcome.of("affine", "strict")]

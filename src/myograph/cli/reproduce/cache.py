@@ -29,7 +29,7 @@ class Found:
     Parameters
     ----------
     told
-        `protocols` (protocol -> figure -> value), `seconds`, `stored`, and more for some.
+        `protocols` (protocol -> figure -> value), `stored`, and more for some: see `trying`.
     arrays
         `node_mm_<protocol>`, `node_mpa_<protocol>`, `curve`, `nodes_before`, ...: see `trying`.
     """

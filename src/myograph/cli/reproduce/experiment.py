@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 from typing import Any
 
 from myograph.cli.reproduce.data import Data
@@ -10,7 +9,6 @@ from myograph.cli.reproduce.outcome import Figures, Outcome, Row, table_rows
 from myograph.cli.reproduce.sizes import Size
 from myograph.cli.reproduce.trial import Chosen, Teaching, Trial
 
-TEACHINGS: tuple[Teaching, ...] = ("off_grid", "strict")
 MODES = {"reads": "sensors"}
 """Neural modes that answer from the sensors."""
 
@@ -44,11 +42,16 @@ def corners(data: Data, support: bool = False) -> Chosen:
     )
 
 
-def taught_twice(name: str, method: str, cases: Chosen, size: Size, seeds: int = 1, **asked: Any) -> list[Trial]:
-    """Trials of one row: taught by `off_grid`, which tests `thesis` too, and by `strict`; from as many seeds."""
+def taught_twice(
+    name: str, method: str, cases: Chosen, size: Size, seeds: int = 1, strict_seeds: int = 1, **asked: Any
+) -> list[Trial]:
+    """Trials of one row: taught by `off_grid`, which tests `thesis` too, and by `strict`; from so many seeds each."""
+    each: dict[Teaching, int] = {"off_grid": seeds, "strict": strict_seeds}
     return [
         _seeded(Trial(name, method, cases, teaching, pairs=size.pairs, **asked), seed)
-        for seed, teaching in product(range(seeds), TEACHINGS)
+        for seed in range(max(each.values()))
+        for teaching, count in each.items()
+        if seed < count
     ]
 
 

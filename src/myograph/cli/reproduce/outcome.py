@@ -48,8 +48,8 @@ class Outcome:
 
     @property
     def seconds(self) -> float:
-        """Processor time of all trainings [s]."""
-        return sum(found.told["seconds"] for found in self.found if found is not None)
+        """Processor time of all trainings [s], without those that were interrupted."""
+        return sum(found.told.get("seconds", 0.0) for found in self.found if found is not None)
 
     def of(self, name: str, protocol: Protocol) -> list[Found]:
         """What was found under a protocol, a seed each."""
@@ -126,8 +126,9 @@ def _figures(found: Sequence[Found], protocol: Protocol) -> dict[str, float | in
         if key in found[0].told:
             figures[key] = int(found[0].told[key])
     for key in MEASURED:
-        if key in found[0].told:
-            figures[key] = rounded(float(np.mean([own.told[key] for own in found])))
+        values = [own.told[key] for own in found if key in own.told]
+        if values:
+            figures[key] = rounded(float(np.mean(values)))
     return figures
 
 

@@ -1,6 +1,7 @@
 """One trial in a process of its own: teach, test, keep what came of it.
 
-`seconds` of learning are those of the processor, so that a busy machine does not count.
+`seconds` of learning are those of the processor, so that a busy machine does not count; a training that was interrupted
+and gone on with has none, for nobody counted those before.
 
 Arrays that are kept:
 
@@ -62,6 +63,7 @@ def run_trial(trial: Trial, stores: Mapping[str, Path], folder: Path | None = No
     """Teach and test; a training that has a folder goes on where it was."""
     from myograph.learning.gen.learner import GenLearner
     from myograph.learning.learners import Asked, make_learner
+    from myograph.learning.training.checkpoint import FILE
 
     cases = grown(cases_of(trial.cases, stores), trial.drawn, trial.seed)
     sampler = PairSampler(
@@ -69,6 +71,7 @@ def run_trial(trial: Trial, stores: Mapping[str, Path], folder: Path | None = No
     )
     split = split_of(trial, cases, trial.teaching)
     learner = make_learner(Asked(trial.method, trial.options, trial.training, folder if trial.training else None))
+    begun = folder is not None and (folder / FILE).exists()
     started = time.process_time()
     arrays: dict[str, np.ndarray] = {}
     if isinstance(learner, GenLearner):
@@ -78,7 +81,9 @@ def run_trial(trial: Trial, stores: Mapping[str, Path], folder: Path | None = No
         arrays["curve"] = _curve(trained.history)
     else:
         predictor = learner.fit(sampler, split)
-    told: dict[str, Any] = {"seconds": time.process_time() - started, "taught": len(split.train.cases), "protocols": {}}
+    told: dict[str, Any] = {"taught": len(split.train.cases), "protocols": {}}
+    if not begun:
+        told["seconds"] = time.process_time() - started
     told["stored"] = _stored(predictor)
     told["predict_ms"] = _milliseconds(predictor, sampler, split)
     for protocol in trial.tested:

@@ -46,7 +46,7 @@ SECTIONS: dict[str, About] = {
         "1e-4, constant, for 3,960 steps as 990 epochs of four were (120 steps in the preset tiny). 'improved' and "
         "'gen_8' are ours. Rows taught by more cases know the activations, and under 'thesis' have seen every target "
         "with them; the others know only what nine sensors say. The feed-forward network's steps are dear, and fewer: "
-        "500 in the preset quick, 1,000 in thesis. The kernel of 'pod_gp' was chosen on cases off the grid, which "
+        "300 in the preset quick, 1,000 in thesis. The kernel of 'pod_gp' was chosen on cases off the grid, which "
         "flatters its off_grid a little.",
     ),
     "6.2.2": About(

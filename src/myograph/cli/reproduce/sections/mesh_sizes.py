@@ -32,7 +32,7 @@ def figures(outcome: Outcome) -> tuple[Figure, ...]:
     groups = {sign: {float(axis**3): _name(sign, axis) for axis in outcome.size.meshes} for sign in SIGNS}
     caption = (
         "Mean error over the number of graph nodes, with the right sign in the softmax and with that of listing 5.2; "
-        f"bands: deviation over {outcome.size.seeds} seeds."
+        f"bands: deviation over {outcome.size.seeds} seeds; 'strict' has one."
     )
     return (over(outcome, groups, ("nodes of the graph", caption), ("off_grid", "strict")),)
 
