@@ -15,8 +15,8 @@ PLANNED: Mapping[str, Mapping[str, float]] = {
         "direct": 40, "convolutions": 30, "edge": 40,
     },
     "quick": {
-        "tables": 600, "6.2.1": 360, "6.2.2": 160, "6.2.3": 180, "6.2.4": 330, "meshes": 240, "sensors": 120,
-        "steps": 110, "direct": 240, "convolutions": 120, "edge": 180,
+        "tables": 780, "6.2.1": 760, "6.2.2": 250, "6.2.3": 215, "6.2.4": 105, "meshes": 120, "sensors": 70,
+        "steps": 60, "direct": 180, "convolutions": 110, "edge": 290,
     },
     "thesis": {
         "tables": 2200, "6.2.1": 12800, "6.2.2": 4100, "6.2.3": 4000, "6.2.4": 14500, "meshes": 10000, "sensors": 5400,

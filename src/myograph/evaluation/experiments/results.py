@@ -20,8 +20,8 @@ Written by `python docs/write_results.py` from [{name}.json]({name}.json), which
 
 Errors are distances of nodes of the biceps, means over all nodes and test pairs unless a column says otherwise. Where
 split, sensors and training have several seeds, rows are means over them, ± the sample standard deviation, and 'max' is
-the largest of all; outside 6.2.1 `strict` is taught by the first of them alone. Stored numbers and times are of the model
-that `thesis` and `off_grid` test: `strict` has its own. Times leave out trainings that were interrupted.
+the largest of all; outside 6.2.1 `strict` is taught by the first of them alone. Stored numbers and times are of what
+`thesis` and `off_grid` test: `strict` has a model of its own. Times leave out trainings that were interrupted.
 'Relative' is the mean error over the mean displacement, which doing nothing misses by 1 (stress: over the mean stress).
 Figures of the thesis are of its own arm: compare relative errors only. A dash: not answered, tested or measured.
 """
