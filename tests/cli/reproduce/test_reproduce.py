@@ -102,6 +102,7 @@ def test_a_section_that_other_versions_made_says_so_and_every_section_how_to_mak
     own = {name: made["provenance"] for name, made in told["sections"].items()}
     assert own["meshes"]["versions"].startswith("myograph 1.0, ")
     assert set(own["sensors"]) == {"command", "seeds", "data", "time taken"}
+    assert own["sensors"]["time taken"].endswith("s, 2 trials made before")
     assert own["sensors"]["command"] == f"myograph reproduce --section sensors {given}"
     page = (tmp_path / "out" / "report.html").read_text()
     assert page.count("numpy 1.0") == page.count("numpy 2.0") == 1

@@ -43,6 +43,12 @@ def test_every_row_has_all_protocols_and_doing_nothing_has_relative_error_1(runn
     assert all(row["mean_mm"] <= row["rmse_mm"] <= row["max_mm"] for row in rows)
 
 
+def test_the_time_says_what_it_was_not_spent_on(runner, data, here):
+    assert runner.run("a", plain(data, "affine")).taken(12.0) == "12 s"
+    outcome = runner.run("a", [*plain(data, "do_nothing", "affine"), *plain(data, "affine")])
+    assert outcome.taken(12.0) == "12 s, 2 trials made before"
+
+
 def test_an_error_keeps_what_is_finished(runner, data, here, monkeypatch):
     good = running.try_and_keep
 

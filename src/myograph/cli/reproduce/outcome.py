@@ -14,6 +14,7 @@ from myograph.cli.reproduce.trial import Trial
 from myograph.cli.reproduce.weighing import lacks_c
 from myograph.ensemble.pairs.protocols import PROTOCOLS, Protocol
 from myograph.evaluation import ErrorSummary, Figure
+from myograph.evaluation.page import duration
 
 Row = dict[str, Any]
 DIGITS = 4
@@ -33,6 +34,8 @@ class Outcome:
         As `trials`; None where there is a reason.
     left_out
         Name of a row -> why it is not there.
+    before
+        How many different trials had been made before.
     """
 
     data: Data
@@ -40,6 +43,7 @@ class Outcome:
     trials: Sequence[Trial]
     found: Sequence[Found | None]
     left_out: Mapping[str, str]
+    before: int = 0
 
     @property
     def names(self) -> list[str]:
@@ -50,6 +54,10 @@ class Outcome:
     def seconds(self) -> float:
         """Processor time of all trainings [s], without those that were interrupted."""
         return sum(found.told.get("seconds", 0.0) for found in self.found if found is not None)
+
+    def taken(self, seconds: float) -> str:
+        """Of this time, what it was spent on."""
+        return f"{duration(seconds)}, {self.before} trials made before" if self.before else duration(seconds)
 
     def of(self, name: str, protocol: Protocol) -> list[Found]:
         """What was found under a protocol, a seed each."""

@@ -1,7 +1,7 @@
 """Runs the trials of a section that are not in the cache, side by side, and gathers what all of them found."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from myograph.cli.progress import Steps
@@ -30,9 +30,10 @@ class Runner:
         known = {key: found for key in wanted if (found := self.cache.get(key)) is not None}
         kept = {key: found for key, found in known.items() if not lacks_c(wanted[key], found.told)}
         missing = {key: trial for key, trial in wanted.items() if key not in kept}
+        before = len(kept)
         reasons = self._make(section, missing)
         kept |= {key: found for key in missing if (found := self.cache.get(key)) is not None}
-        return self._outcome(trials, keys, kept, reasons)
+        return replace(self._outcome(trials, keys, kept, reasons), before=before)
 
     def keys(self, trials: Sequence[Trial]) -> list[str]:
         """Of the trials, in their order."""

@@ -108,7 +108,6 @@ def _make(name: str, runner: "Runner", shelf: "Shelf", made_with: Mapping[str, s
     from myograph.cli.reproduce.outcome import finished, rounded
     from myograph.cli.reproduce.registry import EXPERIMENTS
     from myograph.evaluation.experiments.page import Made
-    from myograph.evaluation.page import duration
 
     started = time.monotonic()
     experiment, data = EXPERIMENTS[name], runner.data
@@ -126,7 +125,7 @@ def _make(name: str, runner: "Runner", shelf: "Shelf", made_with: Mapping[str, s
         "command": _command([name], data.preset, data.places),
         "seeds": ", ".join(map(str, sorted({trial.seed for trial in trials}))),
         "data": ", ".join(f"{store} {data.cases(store).checksum[:16]}" for store in stores),
-        "time taken": duration(time.monotonic() - started),
+        "time taken": outcome.taken(time.monotonic() - started),
         **made_with,
     }
     shelf.put(name, key, Made(experiment.rows(outcome), figures, rounded(outcome.seconds), provenance))
