@@ -1,7 +1,5 @@
 """How long one answer takes: one forward pass for all nodes, on as many threads as the model was loaded with."""
 
-import time
-
 import numpy as np
 from jaxtyping import Float
 
@@ -9,6 +7,7 @@ from myograph.inference.at_rest import question_at_rest
 from myograph.inference.feeds import feeds
 from myograph.inference.loaded import LoadedModel
 from myograph.inference.session import run_session
+from myograph.timing import call_times
 
 
 def forward_milliseconds(model: LoadedModel, repeats: int = 30) -> float:
@@ -21,9 +20,4 @@ def forward_times(model: LoadedModel, repeats: int) -> Float[np.ndarray, " repea
     signature = model.told.signature
     question = question_at_rest(model, np.array([model.told.trained_range.activation_low]))
     given = feeds(question, signature.inputs)
-    times = []
-    for _ in range(repeats):
-        started = time.perf_counter()
-        run_session(model.session, given, signature.outputs)
-        times.append(time.perf_counter() - started)
-    return 1000 * np.array(times)
+    return call_times(lambda: run_session(model.session, given, signature.outputs), repeats)

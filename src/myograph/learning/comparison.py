@@ -4,7 +4,6 @@
 for speed; it is left out where that package is missing. Times are of this machine: compare them within one run.
 """
 
-import statistics
 import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ from myograph.ensemble.pairs.protocols import Split, split_pairs
 from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
 from myograph.errors import InputError, MissingPackageError
 from myograph.learning.learners import LEARNERS, Asked, make_learner
+from myograph.timing import call_times
 
 ROWS: dict[str, tuple[str, Mapping[str, object]]] = {
     **{name: (name, {}) for name in LEARNERS},
@@ -97,13 +97,7 @@ def _row(name: str, sampler: PairSampler, split: Split, steps: int) -> Row:
 
 def _milliseconds(predictor: Predictor, sampler: PairSampler, split: Split) -> float:
     question = sampler.batch(split.test[:1]).question
-    predictor.predict(question)
-    times = []
-    for _ in range(TIMED):
-        started = time.perf_counter()
-        predictor.predict(question)
-        times.append(time.perf_counter() - started)
-    return 1000 * statistics.median(times)
+    return float(np.median(call_times(lambda: predictor.predict(question), TIMED)))
 
 
 def _mean_error(predictor: Predictor, sampler: PairSampler, split: Split) -> float:

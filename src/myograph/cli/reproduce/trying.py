@@ -36,6 +36,7 @@ from myograph.ensemble.views import chosen, joined
 from myograph.errors import MissingPackageError
 from myograph.evaluation import NodeErrors, evaluate
 from myograph.processes import News
+from myograph.timing import call_times
 
 if TYPE_CHECKING:
     from myograph.learning.training import History
@@ -169,10 +170,4 @@ def _stored(predictor: Predictor) -> int:
 def _milliseconds(predictor: Predictor, sampler: PairSampler, split: Split) -> float:
     """Of one pair at all queries, the fastest of some answers: another trial runs beside this one."""
     question = sampler.batch(split.test[:1]).question
-    predictor.predict(question)
-    times = []
-    for _ in range(TIMED):
-        started = time.perf_counter()
-        predictor.predict(question)
-        times.append(time.perf_counter() - started)
-    return 1000 * min(times)
+    return float(call_times(lambda: predictor.predict(question), TIMED).min())
