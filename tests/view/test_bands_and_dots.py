@@ -54,3 +54,12 @@ def test_every_method_has_a_line_and_every_protocol_a_colour():
 def test_dots_of_nothing_are_refused():
     with pytest.raises(InputError, match="at least one method"):
         draw_error_dots({"a": {}})
+
+
+@pytest.mark.parametrize(("low", "high", "told"), [(0.7, 1.7, [0.7, 1, 1.5]), (0.03, 30, [0.05, 0.1, 0.2, 0.5, 1])])
+def test_a_narrow_axis_tells_more_numbers(monkeypatch, low, high, told):
+    drawn = []
+    monkeypatch.setattr("myograph.view.bands.png", lambda figure: drawn.append(figure) or b"")
+    draw_bands([Band("a", np.arange(2), np.array([low, high]))], Axes("x", "y"))
+    ticks = [tick for tick in drawn[0].axes[0].get_yticks() if low <= tick <= high]
+    assert ticks[: len(told)] == pytest.approx(told)

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 PALE = 0.18
 LETTERS = 96
 """Of a legend's line."""
+NARROW = 10
+"""Largest over least number of an axis: below, more of its numbers are told."""
 DASHED = 7
 """From this line on, colours come again, dashed."""
 
@@ -89,9 +91,10 @@ def _legend(figure: "Figure", handles: Sequence["Line2D"]) -> None:
 
 
 def _plain_ticks(axis: "Axis") -> None:
-    """At 1, 2 and 5 times powers of ten, as plain numbers."""
+    """At 1, 2 and 5 times powers of ten, and at some between where those are far apart; as plain numbers."""
     from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=(1, 1.5, 2, 3, 5, 7) if high < NARROW * low else (1, 2, 5)))
     axis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axis.set_minor_formatter(NullFormatter())
