@@ -19,8 +19,8 @@ PLANNED: Mapping[str, Mapping[str, float]] = {
         "steps": 60, "direct": 180, "convolutions": 110, "edge": 290,
     },
     "thesis": {
-        "tables": 2200, "6.2.1": 12800, "6.2.2": 4100, "6.2.3": 4000, "6.2.4": 14500, "meshes": 10000, "sensors": 5400,
-        "steps": 3600, "direct": 4500, "convolutions": 3600, "edge": 4800,
+        "tables": 2200, "6.2.1": 5500, "6.2.2": 840, "6.2.3": 870, "6.2.4": 1170, "meshes": 750, "sensors": 380,
+        "steps": 250, "direct": 2800, "convolutions": 560, "edge": 1100,
     },
 }  # fmt: skip
 """Preset -> 'tables' and each section -> processor seconds on an Intel Xeon of 2026, no graphics card."""
