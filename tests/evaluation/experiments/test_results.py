@@ -7,7 +7,7 @@ import pytest
 
 from myograph.errors import InputError
 from myograph.evaluation.experiments.chapter import SECTIONS, about
-from myograph.evaluation.experiments.results import file_name, results_page
+from myograph.evaluation.experiments.results import file_name, joined, results_page
 
 DOCS = Path(__file__).parents[3] / "docs"
 RESULTS = {
@@ -53,6 +53,28 @@ def test_results_of_something_else_are_refused():
 def test_an_unknown_section_is_refused():
     with pytest.raises(InputError, match=r"section '6\.2\.9': expected one of 6\.2\.1"):
         about("6.2.9")
+
+
+def test_sections_of_a_run_take_the_place_of_those_before():
+    again = {"rows": [row("a", 3.0)], "seconds": 2.0}
+    later = {"preset": "tiny", "provenance": {"versions": "numpy 3"}, "sections": {"direct": again}}
+    found = joined(RESULTS, later)
+    assert list(found["sections"]) == ["6.2.2", "direct"]
+    assert found["provenance"] == {"versions": "numpy 3"}
+    assert found["sections"]["6.2.2"]["provenance"] == {"versions": "numpy 2", "seeds": "0"}
+    assert found["sections"]["direct"] == again
+    assert joined(found, RESULTS)["sections"]["6.2.2"] == RESULTS["sections"]["6.2.2"]
+    assert joined(RESULTS, RESULTS) == RESULTS
+
+
+@pytest.mark.parametrize(
+    "other",
+    [{**RESULTS, "preset": "quick"}, {**RESULTS, "provenance": {"arm": "another"}}],
+    ids=["preset", "arm"],
+)
+def test_results_of_another_preset_or_arm_are_not_joined(other):
+    with pytest.raises(InputError, match="expected those of"):
+        joined(RESULTS, other)
 
 
 @pytest.mark.parametrize("told", sorted(DOCS.glob("results*.json")), ids=lambda path: path.stem)

@@ -34,6 +34,30 @@ def check_results(results: Results) -> None:
         raise InputError(f"results: expected {', '.join(missing)}, got none; write them with 'myograph reproduce'")
 
 
+def joined(before: Results, results: Results) -> Results:
+    """Results, with the sections that they lack out of those before; what was said of that run stays with each.
+
+    Raises InputError where the two are not of one preset and one arm.
+    """
+    check_results(before)
+    check_results(results)
+    for key, old, new in (
+        ("preset", before["preset"], results["preset"]),
+        ("arm", before["provenance"].get("arm"), results["provenance"].get("arm")),
+    ):
+        if old != new:
+            raise InputError(f"results: expected those of {key} {old}, got {new}; write them to a page of their own")
+    run = results["provenance"]
+    told = {k: v for k, v in before["provenance"].items() if k not in ("last command", "preset") and run.get(k) != v}
+    kept = {
+        name: {**found, "provenance": {**told, **found.get("provenance", {})}}
+        for name, found in before["sections"].items()
+        if name not in results["sections"]
+    }
+    sections = {**kept, **results["sections"]}
+    return {**results, "sections": {name: sections[name] for name in SECTIONS if name in sections}}
+
+
 def file_name(preset: str) -> str:
     """Of the page and its JSON in docs, without an ending: those of the preset that anyone can make are plain."""
     return "results" if preset == "quick" else f"results-{preset}"
