@@ -36,6 +36,19 @@ def test_a_cache_of_this_version_stays_and_one_of_another_is_made_anew(tmp_path)
     assert not cache.prepare()
 
 
+def test_a_cache_of_another_version_that_cannot_be_removed_is_told_of(tmp_path, monkeypatch):
+    cache = Cache(tmp_path / "cache")
+    cache.prepare()
+    (cache.folder / "format.json").write_text("{}")
+
+    def locked(_):
+        raise OSError(errno.EACCES, "Permission denied")
+
+    monkeypatch.setattr("myograph.cli.reproduce.cache.shutil.rmtree", locked)
+    with pytest.raises(InputError, match="cache: cannot be written"):
+        cache.prepare()
+
+
 def test_a_cache_without_a_mark_is_made_anew(tmp_path):
     cache = Cache(tmp_path / "cache")
     cache.prepare()

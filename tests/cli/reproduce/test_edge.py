@@ -5,7 +5,7 @@ import pytest
 from myograph.cli.reproduce.cache import Found
 from myograph.cli.reproduce.outcome import Outcome
 from myograph.cli.reproduce.sections import edge
-from myograph.cli.reproduce.sections.edge import CHOICES, SMALLEST, rows
+from myograph.cli.reproduce.sections.edge import CHOICES, SMALLEST, figures, rows
 
 
 def test_the_learning_curve_has_each_choice_at_each_count_from_as_many_seeds(data):
@@ -30,3 +30,14 @@ def test_the_smallest_model_is_within_the_limit_under_both_protocols(data, error
     names = [row["name"] for row in rows(Outcome(data, data.size, trials, outcomes, {}))]
     smallest = [name for name in names if name.startswith(SMALLEST)]
     assert smallest == [f"{SMALLEST}: neural_modes, 1 mode"] * (3 if within else 0)
+
+
+@pytest.mark.parametrize(("lost", "drawn"), [((), 2), (("gen",), 2), (("gen", "neural_modes"), 1)])
+def test_what_could_not_be_weighed_is_left_out_of_the_figures(data, lost, drawn):
+    trials = edge.trials(data, data.size)
+    gone = {trial.name for trial in trials if trial.drawn is None and trial.method in lost}
+    told = {"protocols": {p: {"mean_mm": 1.0} for p in ("thesis", "strict", "off_grid")}, "weights_kb": 2.0}
+    outcomes = [None if trial.name in gone else Found(told) for trial in trials]
+    outcome = Outcome(data, data.size, trials, outcomes, dict.fromkeys(gone, "no onnx"))
+    assert len(figures(outcome)) == drawn
+    assert {row["name"] for row in rows(outcome) if "left_out" in row} == gone

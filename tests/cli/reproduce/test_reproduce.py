@@ -128,13 +128,53 @@ def test_an_unknown_preset_is_refused(tmp_path):
         run_reproduction(built_in_arm(), "huge", [], Places(tmp_path / "out"), Steps())
 
 
-@pytest.mark.parametrize("missing", ["torch", "sklearn", "matplotlib", "ngsolve"])
+@pytest.mark.parametrize(
+    ("designs", "wanted"),
+    [
+        (
+            [DesignSpec(method="factorial", step=0.5)],
+            "expected activations 0 and 1 in the design factorial, got 211 cases",
+        ),
+        ([DesignSpec()], "expected 8 cases of the design support at least, got 3"),
+    ],
+    ids=["halves", "few"],
+)
+def test_a_store_of_another_design_of_that_name_is_refused(designs, wanted, tmp_path):
+    more = [DesignSpec(method="tenths", count=3, label="support"), DesignSpec(method="latin_hypercube", count=8)]
+    path = stored(tmp_path / "store", [*designs, *more])
+    with pytest.raises(InputError, match=wanted):
+        run_reproduction(built_in_arm(), "tiny", ["edge"], Places(tmp_path / "out", path), Steps())
+
+
+@pytest.mark.parametrize("missing", ["torch", "lightning_fabric", "sklearn", "matplotlib", "ngsolve"])
 def test_a_missing_package_is_named_before_anything_is_made(missing, tmp_path, monkeypatch):
     found = "myograph.cli.reproduce.verb.find_spec"
     monkeypatch.setattr(found, lambda name: None if name == missing else object())
     with pytest.raises(MissingPackageError, match=f"needs the package '{missing}'"):
         run_reproduction(built_in_arm(), "tiny", [], Places(tmp_path / "out"), Steps())
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("section", "store", "tables", "needed"),
+    [
+        ("meshes", True, False, False),
+        ("meshes", False, True, False),
+        ("steps", True, False, True),
+        ("steps", True, True, False),
+        ("direct", True, True, True),
+    ],
+)
+def test_a_solver_is_asked_for_where_cases_are_solved(section, store, tables, needed, tmp_path, monkeypatch):
+    def found_all(_):
+        raise RuntimeError
+
+    found = "myograph.cli.reproduce.verb.find_spec"
+    monkeypatch.setattr(found, lambda name: None if name == "ngsolve" else object())
+    monkeypatch.setattr("myograph.cli.reproduce.shelf.Shelf.prepare", found_all)
+    places = Places(tmp_path / "out", tmp_path if store else None, tmp_path if tables else None)
+    with pytest.raises(MissingPackageError if needed else RuntimeError):
+        run_reproduction(built_in_arm(), "tiny", [section], places, Steps())
 
 
 def test_a_store_that_is_not_there_is_refused(tmp_path):

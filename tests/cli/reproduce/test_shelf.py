@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from myograph.cli.reproduce.shelf import Shelf
+from myograph.cli.reproduce.sizes import SIZES
 from myograph.errors import InputError
 from myograph.evaluation import Figure
 from myograph.evaluation.experiments.page import Made
@@ -39,6 +40,13 @@ def test_a_section_of_another_version_or_without_a_picture_is_none(shelf):
     assert shelf.get("6.2.2") is not None
     (path.parent / "0.png").unlink()
     assert shelf.get("6.2.2") is None
+
+
+def test_a_section_of_other_sizes_is_none(shelf, monkeypatch):
+    shelf.put("6.2.2", "key", MADE)
+    monkeypatch.setitem(SIZES, "tiny", replace(SIZES["tiny"], steps=61))
+    assert shelf.get("6.2.2") is None
+    assert shelf.all({}) == {}
 
 
 def test_results_are_the_rows_of_all_finished_sections_in_the_order_of_the_chapter(shelf):

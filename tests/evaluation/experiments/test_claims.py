@@ -16,6 +16,10 @@ def row(name, *errors, protocol="thesis"):
     return {"name": name, "protocol": protocol, "mean_mm": sum(errors) / len(errors), **each}
 
 
+def row_on_skin(error):
+    return {"skin_mean_mm": error, "skin_mean_mm_seeds": [error, error]}
+
+
 def meshes(large, small):
     """Errors of the two meshes, the same in another protocol that is not asked."""
     return [row("343 nodes, right", 99.0, protocol="strict"), row("343 nodes, right", *large), row(*small)]
@@ -32,7 +36,7 @@ def judge(large, small=(1.0, 1.0, 1.0)):
 def test_a_ratio_within_its_bounds_for_every_seed_holds(large, no_need, alike):
     first, second = judge((large, large, large))
     assert (first.verdict, second.verdict) == (no_need, alike)
-    assert first.claim.said == "'There is no need for a huge mesh'"
+    assert first.claim.said == "'There is no need for a huge mesh', both trained for as many steps"
     assert f"{large:.3g} mm (343 nodes, right), 1 mm (8 nodes, right), thesis: {large:.3g} times" in second.evidence
     assert second.evidence.endswith("holds for 0.909 to 1.1 times")
 
@@ -56,11 +60,21 @@ def test_one_seed_decides_nothing():
 
 def test_the_benchmark_is_judged_where_neither_was_taught():
     rows = [
-        row(name, 1.0, 1.0, protocol=p) for name in ("gen_thesis_343", "feed_forward") for p in ("thesis", "strict")
+        {**row(name, 1.0, 1.0, protocol=p), **row_on_skin(skin)}
+        for name, skin in (("gen_thesis_343", 3.0), ("feed_forward", 1.0))
+        for p in ("thesis", "strict")
     ]
     assert judged({"6.2.1": rows[::2]}) == []
     (found,) = judged({"6.2.1": rows})
-    assert (found.verdict, found.claim.protocol) == (HOLDS, "strict")
+    assert (found.verdict, found.claim.protocol) == (FAILS, "strict")
+    assert found.evidence.startswith("3 mm (gen_thesis_343), 1 mm (feed_forward), strict: 3 times")
+
+
+def test_the_small_mesh_is_judged_by_its_own_training_too():
+    rows = [row("gen_thesis_343", 1.2, 1.3), row("gen_thesis_8", 1.0, 1.0)]
+    (found,) = judged({"6.2.1": rows})
+    assert found.verdict == HOLDS
+    assert found.claim.said.startswith("The same, the small one trained for more steps")
 
 
 def test_rows_that_were_not_made_or_not_measured_judge_nothing():

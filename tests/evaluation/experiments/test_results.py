@@ -33,6 +33,12 @@ def test_a_section_becomes_a_table():
     assert "not made in this run: 6.2.1, 6.2.3" in page
 
 
+def test_how_long_networks_were_trained_is_told_at_the_head():
+    told = {**RESULTS, "provenance": {"training steps": "graphs of 8 nodes 60"}}
+    assert "\nTraining steps: graphs of 8 nodes 60.\n" in results_page(told).split("## ")[0]
+    assert "Training steps" not in results_page(RESULTS)
+
+
 def test_what_the_thesis_concludes_is_judged():
     section = {"rows": [row("gen_thesis_343, displacement", 1.0), row("gen_thesis_343, coordinates", 2.0)]}
     page = results_page(RESULTS | {"sections": {"6.2.2": section | {"seconds": 1.0}}})
@@ -69,12 +75,12 @@ def test_sections_of_a_run_take_the_place_of_those_before():
 
 @pytest.mark.parametrize(
     "other",
-    [{**RESULTS, "preset": "quick"}, {**RESULTS, "provenance": {"arm": "another"}}],
-    ids=["preset", "arm"],
+    [{**RESULTS, "preset": "quick"}, *({**RESULTS, "provenance": {key: "another"}} for key in ("arm", "size"))],
+    ids=["preset", "arm", "size"],
 )
-def test_results_of_another_preset_or_arm_are_not_joined(other):
+def test_results_of_another_preset_arm_or_size_are_not_joined(other):
     with pytest.raises(InputError, match="expected those of"):
-        joined(RESULTS, other)
+        joined({**RESULTS, "provenance": {"arm": "a", "size": "b"}}, other)
 
 
 @pytest.mark.parametrize("told", sorted(DOCS.glob("results*.json")), ids=lambda path: path.stem)

@@ -14,7 +14,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 import myograph
-from myograph.files import sweep, write_whole
+from myograph.files import refusing, sweep, write_whole
 
 FORMAT = 2
 """Of what a trial says; a change of what is measured is a change of the format."""
@@ -52,7 +52,8 @@ class Cache:
         mark = self.folder / VERSION
         stale = self.folder.exists() and _read_json(mark) != _version()
         if stale:
-            shutil.rmtree(self.folder)
+            with refusing(self.folder):
+                shutil.rmtree(self.folder)
         if not mark.exists():
             write_whole(mark, lambda file: file.write(json.dumps(_version()).encode()))
         sweep(self.folder, VERSION, "*.npz")

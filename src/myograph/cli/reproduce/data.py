@@ -98,12 +98,24 @@ class Data:
             )
 
     def _check_designs(self, cases: MuscleCases) -> None:
-        """Raise InputError for cases without one of the designs that teach and test."""
+        """Raise InputError where a design that teaches or tests is not there, or is another one of its name."""
         lacking = [word for word in (FACTORIAL, SUPPORT, OFF_GRID) if not len(cases.named(word))]
         if lacking:
             raise InputError(
                 f"{self.places.store}: expected cases of the designs {FACTORIAL}, {SUPPORT} and {OFF_GRID}, got none "
                 f"of {', '.join(lacking)}; simulate them too, or leave out --store"
+            )
+        corners = cases.activation[cases.named(FACTORIAL)]
+        between = (corners > 0) & (corners < 1)
+        if between.any():
+            raise InputError(
+                f"{self.places.store}: expected activations 0 and 1 in the design {FACTORIAL}, got "
+                f"{int(between.any(axis=1).sum())} cases between; simulate it with step 1"
+            )
+        least, found = min(self.size.taught), len(cases.named(SUPPORT))
+        if found < least:
+            raise InputError(
+                f"{self.places.store}: expected {least} cases of the design {SUPPORT} at least, got {found}"
             )
 
     def numbers(self, name: str, *words: str) -> tuple[int, ...]:

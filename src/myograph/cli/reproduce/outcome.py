@@ -18,7 +18,7 @@ from myograph.evaluation.page import duration
 
 Row = dict[str, Any]
 DIGITS = 4
-SPREAD = ("mean_mm", "von_mises_mean_mpa")
+SPREAD = ("mean_mm", "skin_mean_mm", "von_mises_mean_mpa")
 """Figures whose spread over the seeds is told, and their value for each seed."""
 MEASURED = ("seconds", "predict_ms", "weights_kb", "onnx_kb", "onnx_ms", "c_kb", "c_int8_kb", "c_ms")
 """Of a method, whatever the protocol."""

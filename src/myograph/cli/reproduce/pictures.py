@@ -59,7 +59,7 @@ def heat(
         return ()
     picture = draw_heat_maps(body.reference, body.skin, errors, "MPa" if unit == "mpa" else unit)
     thesis = f" (figure {as_in} of the thesis)" if as_in else ""
-    caption = f"Where the errors sit, protocol {protocol}{thesis}; sensors are grey."
+    caption = f"Where the errors sit, protocol {protocol}{thesis}, first seed; sensors are grey."
     return (Figure(caption, picture, f"Heat maps of the error on the biceps: {'; '.join(found)}"),)
 
 
@@ -77,7 +77,9 @@ def far(outcome: Outcome, names: Sequence[str], protocol: Protocol, unit: str = 
         if found is not None:
             bands.append(_binned(name, found))
     axes = Axes("distance of the activations from the nearest that taught [-]", f"mean error of a pair [{unit}]")
-    caption = f"Error over the distance from the training set, protocol {protocol}; bands: half of the pairs."
+    caption = (
+        f"Error over the distance from the training set, protocol {protocol}, first seed; bands: half of the pairs."
+    )
     alt = f"Mean error over the distance from the training set: {'; '.join(band.name for band in bands)}"
     return Figure(caption, draw_bands(bands, axes), alt)
 

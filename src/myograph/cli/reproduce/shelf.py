@@ -15,6 +15,7 @@ from typing import Any
 import myograph
 from myograph.cli.reproduce.cache import FORMAT
 from myograph.cli.reproduce.registry import EXPERIMENTS
+from myograph.cli.reproduce.sizes import reproduction_size
 from myograph.errors import InputError
 from myograph.evaluation import Figure
 from myograph.evaluation.experiments.page import Made
@@ -50,10 +51,10 @@ class Shelf:
         sweep(self.out / "sections", *EXPERIMENTS)
 
     def get(self, name: str, key: str | None = None) -> Made | None:
-        """A finished section, of this key if one is given; None where there is none of this version."""
+        """A finished section, of this key if one is given; None where there is none of this version and these sizes."""
         folder = self.out / "sections" / name
         told = _read(folder / "section.json")
-        if told is None or told.get("version") != _version() or key not in (None, told.get("key")):
+        if told is None or told.get("version") != self._version() or key not in (None, told.get("key")):
             return None
         try:
             figures = [
@@ -67,7 +68,7 @@ class Shelf:
     def put(self, name: str, key: str, made: Made) -> None:
         """Keep a finished section."""
         captions = [{"caption": figure.caption, "alt": figure.alt} for figure in made.figures]
-        told = {"version": _version(), "key": key, "rows": list(made.rows), "seconds": made.seconds}
+        told = {"version": self._version(), "key": key, "rows": list(made.rows), "seconds": made.seconds}
         told |= {"provenance": dict(made.provenance), "figures": captions}
 
         def write(folder: Path) -> None:
@@ -93,13 +94,12 @@ class Shelf:
         text = json.dumps(told, indent=1) + "\n"
         write_whole(self.out / RESULTS, lambda file: file.write(text.encode()))
 
+    def _version(self) -> list[Any]:
+        return [FORMAT, myograph.__version__, reproduction_size(self.preset).checksum]
+
 
 def _beside(own: Mapping[str, str], run: Mapping[str, str]) -> dict[str, str]:
     return {key: value for key, value in own.items() if run.get(key) != value}
-
-
-def _version() -> list[Any]:
-    return [FORMAT, myograph.__version__]
 
 
 def _read(path: Path) -> dict[str, Any] | None:

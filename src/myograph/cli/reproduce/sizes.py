@@ -1,6 +1,8 @@
 """How large the reproduction is, by preset."""
 
-from dataclasses import dataclass
+import hashlib
+import json
+from dataclasses import asdict, dataclass
 
 from myograph.errors import InputError
 
@@ -19,8 +21,8 @@ class Size:
         Further training cases, and cases with continuous activations to test on.
     direct_factorial, direct_off_grid
         Cases that are solved by finite elements, each of them.
-    steps
-        Training steps of a small graph; `share` says what larger ones get.
+    steps, batch
+        Training steps of a small graph, and pairs of each; see `training`.
     thesis_steps, benchmark_steps
         Steps at the thesis's own rates, 990 epochs of 4; and of the feed-forward benchmark, whose steps are dear.
     large, complexity
@@ -41,6 +43,7 @@ class Size:
     direct_factorial: int
     direct_off_grid: int
     steps: int
+    batch: int
     thesis_steps: int
     benchmark_steps: int
     large: int
@@ -52,20 +55,47 @@ class Size:
     taught: tuple[int, ...]
     thin: int
 
-    def share(self, nodes_per_axis: int) -> int:
-        """Training steps of a graph: fewer where a step is dearer."""
-        return max(10, self.steps * 3 // (3 + max(0, nodes_per_axis - 2)))
+    def training(self, nodes_per_axis: int) -> dict[str, int]:
+        """Settings of a graph's training: fewer steps where a step is dearer."""
+        steps = max(10, self.steps * 3 // (3 + max(0, nodes_per_axis - 2)))
+        return {"steps": steps, "batch": self.batch}
+
+    @property
+    def trained(self) -> str:
+        """How long networks are trained, in words."""
+        axes = sorted({2, 3, self.complexity, self.large})
+        graphs = ", ".join(f"of {axis**3} nodes {self.training(axis)['steps']:,}" for axis in axes)
+        return (
+            f"graphs {graphs}, each of {self.batch} pairs; in 'meshes' all as many as those of {self.large**3} nodes, "
+            f"in 'convolutions' half; in 6.2.4 graphs have {self.complexity**3} nodes; feed-forward network "
+            f"{self.benchmark_steps:,}"
+        )
+
+    @property
+    def checksum(self) -> str:
+        """Of all sizes: results of others do not belong into one table with theirs."""
+        return hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()[:16]
 
 
 SIZES = {
-    "tiny": Size(50, 64, 12, 8, 4, 60, 120, 30, 3, 3, 2, 48, (2, 3), (4, 9), (8, 32), 1),
+    "tiny": Size(
+        states=50, support=64, off_grid=12, direct_factorial=8, direct_off_grid=4,
+        steps=60, batch=8, thesis_steps=120, benchmark_steps=30,
+        large=3, complexity=3, seeds=2, pairs=48,
+        meshes=(2, 3), sensors=(4, 9), taught=(8, 32), thin=1,
+    ),
     "quick": Size(
-        55, 512, 64, 16, 8, 600, 3960, 300, 7, 4, 3, 256, (2, 4, 7), (3, 5, 9, 18, 36, 72),
-        (8, 16, 32, 64, 128, 256), 6,
+        states=55, support=512, off_grid=64, direct_factorial=16, direct_off_grid=8,
+        steps=1000, batch=4, thesis_steps=3960, benchmark_steps=300,
+        large=7, complexity=4, seeds=3, pairs=256,
+        meshes=(2, 4, 7), sensors=(3, 5, 9, 18, 36, 72), taught=(8, 16, 32, 64, 128, 256), thin=6,
     ),
     "thesis": Size(
-        55, 1743, 128, 32, 64, 3000, 3960, 1000, 7, 7, 3, 512, (2, 3, 4, 5, 7), (3, 5, 9, 18, 36, 72, 144),
-        (8, 16, 32, 64, 128, 256, 512, 1024), 6,
+        states=55, support=1743, off_grid=128, direct_factorial=32, direct_off_grid=64,
+        steps=3000, batch=8, thesis_steps=3960, benchmark_steps=1000,
+        large=7, complexity=7, seeds=3, pairs=512,
+        meshes=(2, 3, 4, 5, 7), sensors=(3, 5, 9, 18, 36, 72, 144),
+        taught=(8, 16, 32, 64, 128, 256, 512, 1024), thin=6,
     ),
 }  # fmt: skip
 

@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     from myograph.cli.reproduce.runner import Runner
     from myograph.cli.reproduce.shelf import Shelf
 
-_NEEDED = ("torch", "sklearn", "matplotlib")
+_NEEDED = ("torch", "lightning_fabric", "sklearn", "matplotlib")
+_SIMULATING = {"steps", "direct"}
+"""Sections that have cases of their own, whatever store is given."""
 _VERSIONS = ("myograph", "ngsolve", "torch", "torch-geometric", "scikit-learn", "numpy", "scipy")
 
 Sections = Annotated[
@@ -82,7 +84,8 @@ def run_reproduction(arm: Arm, preset: str, sections: list[str], places: "Places
     from myograph.evaluation.experiments.page import write_chapter
 
     size, wanted = reproduction_size(preset), check_sections(sections or list(EXPERIMENTS))
-    _check_installed(places)
+    tabulated = places.tables is None and bool(places.store is None or _SIMULATING & set(wanted))
+    _check_installed(places, tabulated or "direct" in wanted)
     shelf = Shelf(places.out, preset)
     shelf.prepare()
     cache = Cache(places.out / "cache")
@@ -91,16 +94,17 @@ def run_reproduction(arm: Arm, preset: str, sections: list[str], places: "Places
     data = Data(arm, preset, size, places, steps)
     if places.store is not None:
         data.cases("ensemble")
-    steps.console.print(plan(preset, wanted, places.tables is None))
+    steps.console.print(plan(preset, wanted, tabulated))
     runner, made_with = Runner(data, cache, steps), _made_with(arm)
-    provenance = {"last command": _command(sections, preset, places), "preset": preset, **made_with}
+    told = {"preset": preset, "training steps": size.trained, "size": size.checksum}
+    provenance = {"last command": _command(sections, preset, places), **told, **made_with}
     for name in wanted:
         _make(name, runner, shelf, made_with)
         shelf.write_results(provenance)
         write_chapter(f"Chapter 6 again, preset {preset}", shelf.all(provenance), provenance, places.out / REPORT)
     made = {name: shelf.get(name) for name in wanted}
-    told = {name: {"rows": list(own.rows), "seconds": own.seconds} for name, own in made.items() if own is not None}
-    return {"sections": told, "report": str(places.out / REPORT)}
+    found = {name: {"rows": list(own.rows), "seconds": own.seconds} for name, own in made.items() if own is not None}
+    return {"sections": found, "report": str(places.out / REPORT)}
 
 
 def _make(name: str, runner: "Runner", shelf: "Shelf", made_with: Mapping[str, str]) -> None:
@@ -152,11 +156,12 @@ def _made_with(arm: Arm) -> dict[str, str]:
     return {"arm": arm_checksum(arm), "machine": machine, "versions": ", ".join(found)}
 
 
-def _check_installed(places: "Places") -> None:
+def _check_installed(places: "Places", solved: bool) -> None:
+    """Raise InputError for what lacks; `solved` says whether finite elements are needed."""
     for package in _NEEDED:
         if find_spec(package) is None:
             raise MissingPackageError(package, "all", "the reproduction")
-    if places.store is None and places.tables is None and find_spec("ngsolve") is None:
+    if solved and find_spec("ngsolve") is None:
         raise MissingPackageError("ngsolve", "all", "simulating the cases")
     for path in (places.store, places.tables):
         if path is not None and not path.is_dir():

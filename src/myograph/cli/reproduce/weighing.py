@@ -19,6 +19,7 @@ from myograph.ensemble.pairs.protocols import Split
 from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.errors import InputError
 from myograph.export.c import Wanted, c_source, reduced_muscle
+from myograph.files import refusing
 from myograph.inference.latency import forward_times
 from myograph.inference.loaded import load
 from myograph.inference.low_rank import read_low_rank
@@ -58,7 +59,7 @@ def weighed(predictor: Predictor, sampler: PairSampler, split: Split) -> dict[st
     question = sampler.batch(split.test[:1]).question
     numbers = sum(value.numel() * value.element_size() for value in predictor.module.state_dict().values())
     told = {"weights_kb": numbers / KILOBYTE, "multiply_adds": multiply_adds(predictor, question)}
-    with tempfile.TemporaryDirectory() as folder:
+    with refusing(Path(tempfile.gettempdir())), tempfile.TemporaryDirectory() as folder:
         place = Path(folder) / "model"
         save_model(predictor, Training(sampler.cases, split), place)
         told["onnx_kb"] = (place / NETWORK).stat().st_size / KILOBYTE

@@ -73,10 +73,23 @@ class Verdict:
 
 _STRESS = {"most": 0.5, "figure": "von_mises_mean_mpa", "unit": "MPa"}
 CLAIMS = (
-    Claim("meshes", "'There is no need for a huge mesh'", "343 nodes, right", "8 nodes, right", least=1 / ALIKE),
     Claim(
         "meshes",
-        "Both meshes have the same accuracy",
+        "'There is no need for a huge mesh', both trained for as many steps",
+        "343 nodes, right",
+        "8 nodes, right",
+        least=1 / ALIKE,
+    ),
+    Claim(
+        "6.2.1",
+        "The same, the small one trained for more steps, which are cheaper",
+        "gen_thesis_343",
+        "gen_thesis_8",
+        least=1 / ALIKE,
+    ),
+    Claim(
+        "meshes",
+        "Both meshes have the same accuracy, trained for as many steps",
         "343 nodes, right",
         "8 nodes, right",
         least=1 / ALIKE,
@@ -92,12 +105,13 @@ CLAIMS = (
     ),
     Claim(
         "6.2.1",
-        "'A small loss of accuracy compared to the benchmark models' (2.5 times there), on activations that taught "
-        "neither",
+        "'A small loss of accuracy compared to the benchmark models' (2.5 times there), both on the skin, on "
+        "activations that taught neither",
         "gen_thesis_343",
         "feed_forward",
         most=2.5,
         protocol="strict",
+        figure="skin_mean_mm",
     ),
     Claim(
         "6.2.2",

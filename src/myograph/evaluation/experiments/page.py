@@ -15,8 +15,8 @@ from myograph.files import write_whole
 SUMMARY = (
     "Chapter 6 of the thesis again, on data that anyone can make: each experiment with its table and figures, then the "
     "questions that the thesis left open.",
-    "Figures of the thesis are of its own arm, which is not published: they stand beside ours, never in one column. "
-    "Relative errors, the mean error over the mean displacement, are what can be compared.",
+    "Figures of the thesis are of its own arm, which is not published, and whose displacements it does not give: "
+    "errors cannot be compared with ours, ratios of two errors can.",
 )
 PROTOCOLS = {
     "thesis": "pairs whose initial state was never one in training; every target was seen there: new pairings",

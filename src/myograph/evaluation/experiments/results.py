@@ -19,11 +19,12 @@ Written by `python docs/write_results.py` from [{name}.json]({name}.json), which
 [pairs.md](pairs.md).
 
 Errors are distances of nodes of the biceps, means over all nodes and test pairs unless a column says otherwise. Where
-split, sensors and training have several seeds, rows are means over them, ± the sample standard deviation, and 'max' is
-the largest of all; outside 6.2.1 `strict` is taught by the first of them alone. Stored numbers and times are of what
-`thesis` and `off_grid` test: `strict` has a model of its own. Times leave out trainings that were interrupted.
-'Relative' is the mean error over the mean displacement, which doing nothing misses by 1 (stress: over the mean stress).
-Figures of the thesis are of its own arm: compare relative errors only. A dash: not answered, tested or measured.
+split, sensors and training have several seeds, rows are means over them, ± the sample standard deviation; outside 6.2.1
+`strict` is taught by the first of them alone. 'Max' is the largest of all that were tested, larger with more seeds.
+Stored numbers and times are of what `thesis` and `off_grid` test: `strict` has a model of its own. Times leave out
+trainings that were interrupted. 'Relative' is the mean error over the mean displacement, which doing nothing misses by
+1 (stress: over the mean stress). Figures of the thesis are of its own arm, whose displacements it does not give: what
+can be compared with ours are ratios of two of its errors. A dash: not answered, tested or measured.
 """
 
 
@@ -37,17 +38,16 @@ def check_results(results: Results) -> None:
 def joined(before: Results, results: Results) -> Results:
     """Results, with the sections that they lack out of those before; what was said of that run stays with each.
 
-    Raises InputError where the two are not of one preset and one arm.
+    Raises InputError where the two are not of one preset, or tell of two arms or sizes.
     """
     check_results(before)
     check_results(results)
-    for key, old, new in (
-        ("preset", before["preset"], results["preset"]),
-        ("arm", before["provenance"].get("arm"), results["provenance"].get("arm")),
-    ):
-        if old != new:
-            raise InputError(f"results: expected those of {key} {old}, got {new}; write them to a page of their own")
     run = results["provenance"]
+    pairs = {"preset": (before["preset"], results["preset"])}
+    pairs |= {key: (before["provenance"].get(key, run.get(key)), run.get(key)) for key in ("arm", "size")}
+    for key, (old, new) in pairs.items():
+        if old != new:
+            raise InputError(f"results: expected those of {key} {old}, got {new}; make all sections again")
     told = {k: v for k, v in before["provenance"].items() if k not in ("last command", "preset") and run.get(k) != v}
     kept = {
         name: {**found, "provenance": {**told, **found.get("provenance", {})}}
@@ -68,6 +68,8 @@ def results_page(results: Results) -> str:
     check_results(results)
     preset = results["preset"]
     parts = [HEAD.format(preset=preset, name=file_name(preset))]
+    if trained := results["provenance"].get("training steps"):
+        parts.append(f"Training steps: {trained}.\n")
     absent = [name for name in SECTIONS if name not in results["sections"]]
     if absent:
         parts.append(f"Sections that were not made in this run: {', '.join(absent)}.\n")

@@ -26,7 +26,7 @@ def trials(data: Data, size: Size) -> Sequence[Trial]:
     rows = []
     for step, words in WORDS.items():
         cases = _cases(data, words)
-        training = {"steps": size.share(2)}
+        training = size.training(2)
         rows += [
             taught_twice(f"gen_thesis_8, {step}", "gen_thesis", cases, size, training=training),
             taught_twice(f"neural_modes, {step}", "neural_modes", cases, size, options=MODES),

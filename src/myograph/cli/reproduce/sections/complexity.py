@@ -24,7 +24,7 @@ thesis's figure; the last is the least that its conclusion allows, and was not t
 
 def trials(data: Data, size: Size) -> Sequence[Trial]:
     """All configurations, from several seeds."""
-    few, training = corners(data), {"steps": size.share(size.complexity)}
+    few, training = corners(data), size.training(size.complexity)
     rows = []
     for name, (hidden, latent) in CONFIGURATIONS.items():
         options = {"nodes_per_axis": size.complexity, "hidden": hidden, "latent": latent}

@@ -18,7 +18,8 @@ AXIS = 3
 
 def trials(data: Data, size: Size) -> Sequence[Trial]:
     """The network with each processor."""
-    few, training = corners(data), {"steps": size.share(AXIS) // 2}
+    few, whole = corners(data), size.training(AXIS)
+    training = {**whole, "steps": whole["steps"] // 2}
     rows = [
         taught_twice(name, "gen", few, size, options={"nodes_per_axis": AXIS, "processor": name}, training=training)
         for name in get_args(Processor)

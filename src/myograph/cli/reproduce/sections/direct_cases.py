@@ -18,7 +18,7 @@ def trials(data: Data, size: Size) -> Sequence[Trial]:
     data.cases("beside")
     direct = Chosen("direct", corners, inside)
     taught = {"direct": direct, "table": replace(direct, store="beside", truth="direct")}
-    training = {"steps": size.share(2)}
+    training = size.training(2)
     rows = [taught_twice("do_nothing", "do_nothing", direct, size)]
     for where, cases in taught.items():
         rows += [

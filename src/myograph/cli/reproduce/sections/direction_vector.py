@@ -20,7 +20,7 @@ def trials(data: Data, size: Size) -> Sequence[Trial]:
     for axis in (2, size.large):
         for feature in FEATURES:
             plain = {"inputs": ((feature,),), "outputs": ((feature,),)} if feature != "coordinates" else {}
-            options, training = {"nodes_per_axis": axis, **plain}, {"steps": size.share(axis)}
+            options, training = {"nodes_per_axis": axis, **plain}, size.training(axis)
             name = f"gen_thesis_{axis**3}, {feature}"
             rows.append(taught_twice(name, "gen_thesis", few, size, size.seeds, options=options, training=training))
     return [trial for row in rows for trial in row]

@@ -30,7 +30,7 @@ def trials(data: Data, size: Size) -> Sequence[Trial]:
     few, many = corners(data), corners(data, support=True)
     rows = [taught_twice("do_nothing", "do_nothing", few, size, size.seeds, asked=STRESS)]
     for axis in (2, size.large):
-        training = {"steps": size.share(axis)}
+        training = size.training(axis)
         given = {"nodes_per_axis": axis, "outputs": (STRESS,)}
         told = {**given, "inputs": (("coordinates",), STRESS)}
         plain = {"training": training, "asked": STRESS}
@@ -89,7 +89,10 @@ def _along(outcome: Outcome, names: Sequence[str]) -> Figure:
     axes = Axes(
         "place along the muscle, from its origin (0) to its insertion (1)", "mean error of von Mises stress [MPa]"
     )
-    caption = "Error along the muscle, protocol strict: the thesis found its largest errors at the tendon's insertion."
+    caption = (
+        "Error along the muscle, protocol strict, first seed: the thesis found its largest errors at the tendon's "
+        "insertion."
+    )
     return Figure(caption, draw_bands(bands, axes), caption)
 
 

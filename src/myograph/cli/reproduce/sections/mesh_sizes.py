@@ -18,7 +18,7 @@ SIGNS = {"right": {}, "legacy_sign": {"traps": {"legacy_sign": True}}}
 
 def trials(data: Data, size: Size) -> Sequence[Trial]:
     """The thesis's network over its nodes, with either sign."""
-    few, training = corners(data), {"steps": size.share(size.large)}
+    few, training = corners(data), size.training(size.large)
     rows = []
     for sign, trap in SIGNS.items():
         for axis in size.meshes:

@@ -17,7 +17,7 @@ LEAST = 4
 
 def trials(data: Data, size: Size) -> Sequence[Trial]:
     """Each method with each number of random sensors."""
-    few, training = corners(data), {"steps": size.share(2)}
+    few, training = corners(data), size.training(2)
     rows = []
     for count in size.sensors:
         rows.append(taught_twice(_name("gen_8", count), "gen", few, size, training=training, sensors=count))

@@ -18,7 +18,7 @@ THESIS_RATE = {"learning_rate": 1e-4, "schedule": "constant"}
 def trials(data: Data, size: Size) -> Sequence[Trial]:
     """Methods that learn from 32 cases, and those that learn from activations of many more."""
     few, many = corners(data), corners(data, support=True)
-    small, large = size.share(2), size.share(size.large)
+    small, large = size.training(2), size.training(size.large)
     as_thesis, benchmark = {**THESIS_RATE, "steps": size.thesis_steps}, {"steps": size.benchmark_steps}
     improved = NetworkConfig.improved().model_dump()
 
@@ -27,16 +27,16 @@ def trials(data: Data, size: Size) -> Sequence[Trial]:
 
     rows = [row(name, name, few) for name in ("do_nothing", "affine", "thin_plate_spline", "gappy_pod")]
     rows += [
-        row(f"gen_thesis_{axis**3}", "gen_thesis", few, options=_axis(axis), training={"steps": steps})
-        for axis, steps in ((2, small), (size.large, large))
+        row(f"gen_thesis_{axis**3}", "gen_thesis", few, options=_axis(axis), training=training)
+        for axis, training in ((2, small), (size.large, large))
     ]
     rows += [
-        row("gen_thesis_8, its rate", "gen_thesis", few, options=_axis(2), training=as_thesis, strict_seeds=1),
-        row("gen_8", "gen", few, training={"steps": small}),
-        row("gen_8, improved", "gen", few, options=improved, training={"steps": small}),
+        row("gen_thesis_8, its rate", "gen_thesis", few, options=_axis(2), training=as_thesis),
+        row("gen_8", "gen", few, training=small),
+        row("gen_8, improved", "gen", few, options=improved, training=small),
         row("neural_modes, sensors", "neural_modes", few, options=MODES),
         row("feed_forward", "feed_forward", many, training=benchmark),
-        row("deeponet", "deeponet", many, training={"steps": small}, convention="material"),
+        row("deeponet", "deeponet", many, training={"steps": size.steps}, convention="material"),
         row("pod_gp", "pod_gp", many),
         row("neural_modes", "neural_modes", many),
     ]
