@@ -14,6 +14,24 @@ from myograph.errors import InputError
 from myograph.processes import side_by_side
 
 ROOT = Path(__file__).parents[1]
+FOUR = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "4")
+COUNTED = """
+import os
+
+import numpy
+from threadpoolctl import threadpool_info
+
+from myograph.processes import side_by_side
+
+
+def threads(tell):
+    return {own["num_threads"] for own in threadpool_info()}
+
+
+if __name__ == "__main__":
+    (found,) = side_by_side(threads, [()], lambda _: None)
+    print(sorted(found), os.environ["OPENBLAS_NUM_THREADS"])
+"""
 KEPT = []
 
 
@@ -34,6 +52,16 @@ def test_results_come_in_order_and_news_arrives():
     assert [value for value, _ in results] == [9, 1, 4]
     assert sorted(heard) == [1, 2, 3]
     assert os.getpid() not in {pid for _, pid in results}
+
+
+def test_each_process_computes_on_one_thread_whatever_the_main_module_imports(tmp_path):
+    """A new process imports the main module before anything else: here NumPy, as our own does."""
+    (tmp_path / "counted.py").write_text(COUNTED)
+    run = subprocess.run(
+        [sys.executable, "counted.py"], cwd=tmp_path, env=os.environ | FOUR, check=True,
+        capture_output=True, text=True,
+    )  # fmt: skip
+    assert run.stdout.split() == ["[1]", "4"]
 
 
 def test_the_error_of_a_task_is_raised_here():

@@ -2,6 +2,9 @@
 
 Every process is new ('spawn'), so that nothing leaks from one to another; on an error or an interrupt all are ended
 at once. What they warn of is warned of here, so that several that say the same are heard once.
+
+Trap: a new process first imports what the caller's main module does, NumPy among it, whose number of threads is settled
+there and then. It must lie in the environment that the process is born with.
 """
 
 import multiprocessing
@@ -10,13 +13,16 @@ import queue
 import signal
 import threading
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import contextmanager
 from multiprocessing.managers import SyncManager
 from typing import Any, TypeVar
 
 Result = TypeVar("Result")
 News = Callable[[Any], None]
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+"""Environment of a process that computes on one thread."""
 
 
 def side_by_side(work: Callable[..., Result], tasks: Sequence[tuple], on_news: News) -> list[Result]:
@@ -33,7 +39,8 @@ def side_by_side(work: Callable[..., Result], tasks: Sequence[tuple], on_news: N
         news = manager.Queue()
         pool = ProcessPoolExecutor(min(len(tasks), os.cpu_count() or 1), context, _prepare_worker, (news,))
         try:
-            futures = [pool.submit(_work, work, task, news) for task in tasks]
+            with _environment(ONE_THREAD):
+                futures = [pool.submit(_work, work, task, news) for task in tasks]
             _follow(futures, news, on_news)
             results = [future.result() for future in futures]
         except BaseException:
@@ -41,6 +48,21 @@ def side_by_side(work: Callable[..., Result], tasks: Sequence[tuple], on_news: N
             raise
         pool.shutdown()
         return results
+
+
+@contextmanager
+def _environment(names: Mapping[str, str]) -> Iterator[None]:
+    """What processes that are begun within inherit."""
+    before = {name: os.environ.get(name) for name in names}
+    os.environ.update(names)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
 
 
 def _end(pool: ProcessPoolExecutor) -> None:
@@ -80,9 +102,8 @@ def _prepare_worker(news: Any) -> None:
 
 
 def _prepare() -> None:
-    """One thread of computing for each process; the interrupt is the parent's business, and its end is ours."""
+    """The interrupt is the parent's business, and its end is ours."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    os.environ["OMP_NUM_THREADS"] = "1"
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 

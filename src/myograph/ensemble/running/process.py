@@ -13,8 +13,7 @@ from typing import Any
 from myograph.ensemble.running.chains import Step
 from myograph.ensemble.spec import SimulatorSpec
 from myograph.errors import InputError
-
-_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+from myograph.processes import ONE_THREAD
 
 
 class ProcessDiedError(Exception):
@@ -30,7 +29,7 @@ class SimulatorProcess:
 
     def __init__(self, store: Path, spec: SimulatorSpec) -> None:
         modules = os.pathsep.join(path for path in sys.path if path)
-        environment = {**os.environ, **dict.fromkeys(_THREADS, "1"), "PYTHONPATH": modules}
+        environment = {**os.environ, **ONE_THREAD, "PYTHONPATH": modules}
         self._process = subprocess.Popen(
             [sys.executable, "-m", "myograph.ensemble.running.child"],
             stdin=subprocess.PIPE,
