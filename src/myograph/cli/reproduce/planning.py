@@ -15,8 +15,8 @@ PLANNED: Mapping[str, Mapping[str, float]] = {
         "direct": 40, "convolutions": 30, "edge": 40,
     },
     "quick": {
-        "tables": 780, "6.2.1": 760, "6.2.2": 250, "6.2.3": 215, "6.2.4": 105, "meshes": 120, "sensors": 70,
-        "steps": 60, "direct": 180, "convolutions": 110, "edge": 290,
+        "tables": 240, "6.2.1": 270, "6.2.2": 90, "6.2.3": 100, "6.2.4": 60, "meshes": 55, "sensors": 40,
+        "steps": 32, "direct": 90, "convolutions": 65, "edge": 130,
     },
     "thesis": {
         "tables": 2200, "6.2.1": 5500, "6.2.2": 840, "6.2.3": 870, "6.2.4": 1170, "meshes": 750, "sensors": 380,
