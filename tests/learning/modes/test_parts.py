@@ -127,6 +127,14 @@ def test_elimination_solves_what_numpy_solves():
     assert np.allclose(found, np.linalg.solve(matrix, right))
 
 
+def test_elimination_keeps_all_digits_where_pivots_are_large():
+    draw = np.random.default_rng(4)
+    half = draw.normal(size=(5, 40)) * 1e5
+    matrix, right = half @ half.T + np.eye(5), half @ draw.normal(size=(40, 3))
+    found = eliminate(torch.tensor(matrix), torch.tensor(right)).numpy()
+    np.testing.assert_allclose(found, np.linalg.solve(matrix, right), rtol=1e-12)
+
+
 def test_ridge_amounts_minimise_misfit_and_size():
     modes, spread, noise = GENERATOR.normal(size=(6, 3)), np.array([2.0, 1.0, 0.3]), 0.2
     missed = GENERATOR.normal(size=(4, 6))

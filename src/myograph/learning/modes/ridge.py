@@ -28,9 +28,12 @@ def ridge_amounts(
 def eliminate(
     matrix: Float64[Tensor, "rows rows"], right: Float64[Tensor, "rows columns"]
 ) -> Float64[Tensor, "rows columns"]:
-    """X of matrix X = right, for a symmetric positive definite matrix, in operations that ONNX has (Gauss-Jordan)."""
+    """X of matrix X = right, for a symmetric positive definite matrix, in operations that ONNX has (Gauss-Jordan).
+
+    Trap: a row that is divided by taking away all but one part of its pivot loses as many digits as the pivot has.
+    """
     both, units = torch.cat([matrix, right], dim=1), torch.eye(matrix.shape[0], dtype=matrix.dtype)
     for row, unit in enumerate(units.to(matrix.device).unbind()):
-        column = both[:, row : row + 1]
-        both = both + (unit[:, None] - column) * (both[row : row + 1] / both[row, row])
+        own, divided = unit[:, None], both[row : row + 1] / both[row, row]
+        both = own * divided + (1 - own) * (both - both[:, row : row + 1] * divided)
     return both[:, matrix.shape[1] :]
