@@ -19,11 +19,11 @@ PLANNED: Mapping[str, Mapping[str, float]] = {
         "steps": 32, "direct": 90, "convolutions": 65, "edge": 130,
     },
     "thesis": {
-        "tables": 2200, "6.2.1": 5500, "6.2.2": 840, "6.2.3": 870, "6.2.4": 1170, "meshes": 750, "sensors": 380,
-        "steps": 250, "direct": 2800, "convolutions": 560, "edge": 1100,
+        "tables": 1000, "6.2.1": 2550, "6.2.2": 480, "6.2.3": 500, "6.2.4": 600, "meshes": 370, "sensors": 140,
+        "steps": 90, "direct": 950, "convolutions": 170, "edge": 450,
     },
 }  # fmt: skip
-"""Preset -> 'tables' and each section -> processor seconds on an Intel Xeon of 2026, no graphics card."""
+"""Preset -> 'tables' and each section -> processor seconds on an AMD EPYC of 2026, no graphics card."""
 TABLES = "tables"
 
 
