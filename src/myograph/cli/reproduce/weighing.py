@@ -59,7 +59,7 @@ def weighed(predictor: Predictor, sampler: PairSampler, split: Split) -> dict[st
     question = sampler.batch(split.test[:1]).question
     numbers = sum(value.numel() * value.element_size() for value in predictor.module.state_dict().values())
     told = {"weights_kb": numbers / KILOBYTE, "multiply_adds": multiply_adds(predictor, question)}
-    with refusing(Path(tempfile.gettempdir())), tempfile.TemporaryDirectory() as folder:
+    with refusing(Path("temporary files")), tempfile.TemporaryDirectory() as folder:
         place = Path(folder) / "model"
         save_model(predictor, Training(sampler.cases, split), place)
         told["onnx_kb"] = (place / NETWORK).stat().st_size / KILOBYTE

@@ -40,8 +40,6 @@ def joined(before: Results, results: Results) -> Results:
 
     Raises InputError where the two are not of one preset, or tell of two arms or sizes.
     """
-    check_results(before)
-    check_results(results)
     run = results["provenance"]
     pairs = {"preset": (before["preset"], results["preset"])}
     pairs |= {key: (before["provenance"].get(key, run.get(key)), run.get(key)) for key in ("arm", "size")}
