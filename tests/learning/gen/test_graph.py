@@ -1,5 +1,9 @@
 """The graph in torch against dense algebra."""
 
+import pickle
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import torch
@@ -32,3 +36,14 @@ def test_a_graph_is_where_it_is_asked_to_be(graph):
     assert graph.on(torch.device("cpu")) is graph
     moved = graph.on(torch.device("meta"))
     assert {part.device.type for part in (moved.edges, moved.dense, moved.neighbours)} == {"meta"}
+
+
+def test_a_graph_comes_back_from_another_process_whole_and_without_warnings(graph, tmp_path):
+    again = pickle.loads(pickle.dumps(graph))
+    assert torch.equal(again.sparse.to_dense(), graph.sparse.to_dense())
+    assert torch.equal(again.edges, graph.edges)
+    (tmp_path / "graph").write_bytes(pickle.dumps(graph))
+    told = f"import pickle, pathlib; print(type(pickle.loads(pathlib.Path({str(tmp_path / 'graph')!r}).read_bytes())))"
+    done = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True)
+    assert "Graph" in done.stdout
+    assert "Sparse" not in done.stderr

@@ -56,6 +56,10 @@ class Graph:
         """Itself: nothing in it ever changes, and torch cannot copy sparse matrices."""
         return self
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """For another process: without the sparse matrix, which torch puts together with warnings."""
+        return _put_together, (self.edges, self.dense, self.neighbours, self.triangulation)
+
     def on(self, device: torch.device) -> "Graph":
         """The graph on this device."""
         if self.dense.device == device:
@@ -89,6 +93,16 @@ def graph_of(nodes: Float[np.ndarray, "nodes axes"], corners: int | None = None)
     dense = torch.tensor(adjacency.toarray(), dtype=torch.float32)
     neighbours = torch.tensor(np.bincount(edges.ravel(), minlength=len(nodes)).clip(1), dtype=torch.float32)
     return Graph(torch.tensor(both_ways.copy()), sparse_matrix(adjacency), dense, neighbours, triangulation)
+
+
+def _put_together(
+    edges: Int[Tensor, "2 edges"],
+    dense: Float[Tensor, "nodes nodes"],
+    neighbours: Float[Tensor, " nodes"],
+    triangulation: Triangulation,
+) -> Graph:
+    sparse = sparse_matrix(csr_array(dense.cpu().numpy())).to(dense.device)
+    return Graph(edges, sparse, dense, neighbours, triangulation)
 
 
 def sparse_matrix(matrix: csr_array) -> Tensor:
