@@ -24,6 +24,12 @@ def sensing(sampler, split):
     return CalibratedLearner(ModesLearner(ModesConfig(reads="sensors", **QUICK))).fit(sampler, split)
 
 
+@pytest.fixture(scope="module")
+def told_both(sampler, split):
+    """Neural modes of activations and sensors, calibrated."""
+    return CalibratedLearner(ModesLearner(ModesConfig(reads="both", **QUICK)), share=0.3).fit(sampler, split)
+
+
 def test_held_out_cases_are_support_cases_and_teach_nothing(block_cases, split):
     rest, held_out = hold_out(block_cases, split, 0.15, 0)
     assert set(held_out) <= set(block_cases.named("support"))
@@ -97,15 +103,13 @@ def test_intervals_scale_with_the_deviations_that_the_method_says(sampler, split
     assert narrow.factors["position"] == pytest.approx(4 * wide.factors["position"])
 
 
-def test_each_way_of_telling_a_method_is_calibrated_by_itself(sampler, split):
-    both = ModesLearner(ModesConfig(reads="both", **QUICK))
-    calibrated = CalibratedLearner(both, share=0.3).fit(sampler, split)
-    assert set(calibrated.factors_from) == {"activation", "sensors"}
-    told = (calibrated.factors, *calibrated.factors_from.values())
+def test_each_way_of_telling_a_method_is_calibrated_by_itself(told_both, sampler, split):
+    assert set(told_both.factors_from) == {"activation", "sensors"}
+    told = (told_both.factors, *told_both.factors_from.values())
     assert len({factors["position"] for factors in told}) == 3
     question = sampler.batch(split.test[:3]).question
-    for way, factors in ((WHOLE, calibrated.factors), *calibrated.factors_from.items()):
-        answer = calibrated.predict(told_only(question, way))
+    for way, factors in ((WHOLE, told_both.factors), *told_both.factors_from.items()):
+        answer = told_both.predict(told_only(question, way))
         times = answer.half_width_90["position"] / answer.deviation["position"]
         np.testing.assert_allclose(times, factors["position"], rtol=1e-6)
 
@@ -143,6 +147,15 @@ def test_an_answer_from_sensors_is_inside_where_these_fit_a_known_shape(sensing,
     torn = question.sensor_target["position"] + np.random.default_rng(0).normal(scale=5, size=(4, 4, 3))
     odd = replace(question, sensor_target={**question.sensor_target, "position": torn})
     assert not sensing.predict(odd).inside.any()
+
+
+def test_activations_that_a_method_does_not_read_do_not_judge_its_answer(sensing, sampler, split):
+    question = sampler.batch(split.test[:4]).question
+    assert sensing.predict(replace(question, hand_load=np.full(4, 30.0))).inside.all()
+
+
+def test_a_calibrated_method_is_as_large_as_the_method(told_both):
+    assert told_both.parameters == told_both.predictor.parameters > 0
 
 
 def test_a_calibrated_method_is_named_as_the_method(sensing):
