@@ -51,6 +51,8 @@ BICEPS = ModesConfig(reads="both", stress="von_mises", kept="float16", modes=20)
 GEN = NetworkConfig.improved().model_copy(update={"latent": 32, "hidden": (32, 32)})
 STEPS = TrainingConfig(steps=4000, queries=128)
 LIMITS = ("Von Mises stress has modes of its own: where there is hardly any, it may come out a little below zero.",)
+COMMANDS = {"biceps": "--biceps STORE --truth STORE", "gen-biceps": "--biceps STORE"}
+"""What makes single models, as their cards say it."""
 FEW = 8
 """Cases off the grid that the arm is held against."""
 TESTED = 256
@@ -146,7 +148,7 @@ def _sampler(store: Path, muscle: str, asked: tuple[str, ...] = ASKED) -> PairSa
 
 
 def _save(model: CalibratedPredictor, sampler: PairSampler, taught: Split, seconds: float, out: Path) -> None:
-    what = "arm" if out.parent.name == "arm" else "biceps"
+    what = "--arm STORE" if out.parent.name == "arm" else COMMANDS[out.name]
     metrics = {}
     for protocol in PROTOCOLS:
         test = split_pairs(sampler.cases, protocol).test
@@ -155,7 +157,7 @@ def _save(model: CalibratedPredictor, sampler: PairSampler, taught: Split, secon
     training = Training(
         sampler.cases,
         taught,
-        command=f"python benchmarks/make_models.py --{what} STORE",
+        command=f"python benchmarks/make_models.py {what}",
         seconds=seconds,
         metrics=metrics,
         half_width_90=model.factors,

@@ -39,6 +39,12 @@ _ALL = (
 FIELDS: dict[str, Field] = {field.name: field for field in _ALL}
 
 
+def components_of(name: str) -> tuple[int, ...]:
+    """What stands behind (cases, nodes) in the shape of a known field: nothing, or its number of components."""
+    components = FIELDS[name].components
+    return (len(components),) if components else ()
+
+
 def von_mises(stress: Float[np.ndarray, "*batch 6"]) -> Float[np.ndarray, "*batch"]:
     """Von Mises stress [MPa] of a Cauchy stress in Voigt order.
 

@@ -64,6 +64,20 @@ def sweep(folder: Path, *names: str) -> None:
                     aside.unlink(missing_ok=True)
 
 
+def read_bounded(path: Path, most_bytes: int) -> bytes:
+    """The bytes of a plain file; raises InputError for what is none, cannot be read, or is larger."""
+    try:
+        if not path.is_file():
+            raise InputError(f"{path}: cannot be read: expected a plain file there")
+        with path.open("rb") as file:
+            data = file.read(min(path.stat().st_size, most_bytes) + 1)
+    except OSError as problem:
+        raise InputError(f"{path}: cannot be read: {problem.strerror}") from None
+    if len(data) > most_bytes:
+        raise InputError(f"{path}: expected at most {most_bytes} bytes, got more")
+    return data
+
+
 @contextmanager
 def refusing(path: Path) -> Iterator[None]:
     """What cannot be written at `path` within becomes an InputError: for what is not written whole (a log, a store)."""

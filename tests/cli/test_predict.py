@@ -13,7 +13,7 @@ from myograph.cli.predict import predict
 from myograph.errors import InputError
 from myograph.inference.held_out import factorial_checksum
 from myograph.inference.truth import read_truth, write_truth
-from tests.inference.stand_in import place, save_linear, save_mean, stand_in_cases
+from tests.inference.stand_in import SENSORS, place, save_linear, save_mean, stand_in_cases
 
 ERROR = 0.75  # mm, in x at every node
 
@@ -84,6 +84,32 @@ def test_sensors_come_from_a_file(call, tmp_path):
     assert found["cases"][0]["von_mises_max_mpa"] is None
 
 
+def test_intervals_from_sensors_allow_for_their_noise(call, tmp_path):
+    rest = place(np.zeros((1, 5)))[0]
+    at = "".join(
+        f"{node},{x + node / 20},{y},{z}\n" for node, (x, y, z) in zip(SENSORS, rest[list(SENSORS)], strict=True)
+    )
+    (tmp_path / "s.csv").write_text("node,x_mm,y_mm,z_mm\n" + at)
+    exact = json.loads(call("predict", "mean", "--sensors", tmp_path / "s.csv", "--json"))["cases"][0]
+    noisy = json.loads(call("predict", "mean", "--sensors", tmp_path / "s.csv", "--sensor-noise", "0.3", "--json"))
+    assert exact["half_width_90_mm"] > 0
+    assert noisy["cases"][0]["half_width_90_mm"] is None  # it knows of no noise
+
+
+def test_more_cases_than_are_answered_at_once_are_as_one_by_one(call, tmp_path, monkeypatch):
+    rows = [f"0,0,{k / 9},0,0" for k in range(10)]
+    (tmp_path / "a.csv").write_text("\n".join([COLUMNS, *rows]))
+    ask = ("predict", "linear", "--activations", tmp_path / "a.csv", "--out", tmp_path / "o.npz", "--json")
+    together = json.loads(call(*ask))["cases"]
+    positions = np.load(tmp_path / "o.npz")["position"]
+    monkeypatch.setattr("myograph.cli.predict.AT_ONCE", 3)
+    assert json.loads(call(*ask))["cases"] == together
+    np.testing.assert_array_equal(np.load(tmp_path / "o.npz")["position"], positions)
+    monkeypatch.setattr("myograph.cli.predict.MOST_STATES", 399)
+    with pytest.raises(InputError, match="expected at most 9 cases in one file, got 10"):
+        call(*ask)
+
+
 def test_a_grid_for_paraview(call, tmp_path):
     h5py = pytest.importorskip("h5py")
     call("predict", "--activation", "0,0,1,0,0", "--out", tmp_path / "out.vtkhdf")
@@ -134,6 +160,8 @@ MISTAKES = {
     ("--activation", "0,0,x,0,0"): "expected numbers such as",
     ("--activation", "0,0,1.5,0,0"): r"biceps: expected a number in \[0, 1\], got 1.5",
     ("--activation", "bicep=1"): "unknown muscle 'bicep'",
+    ("--activation", "biceps=1,biceps=0.5"): "expected every muscle once",
+    ("--activations", "load.csv", "--out", "load.csv"): "expected another file than the one that is read",
     ("--activation", "0,0,1,0,0", "--load", "nan"): "expected newtons",
     ("--activation", "0,0,1,0,0", "--out", "a.xlsx"): r"ends in .csv, .npz, .vtkhdf",
     ("nothing", "--activation", "0,0,1,0,0"): "nothing: expected the folder of a saved model",

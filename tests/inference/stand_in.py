@@ -17,19 +17,21 @@ SENSORS = (0, 13, 27, 39)
 LENGTH = 100.0  # mm
 HEAD = '<ir_version: 8, opset_import: ["" : 18]>'
 
-# position = X (1 + stretch a) + shift a;  von Mises = |position - X| / 100
+# position = X (1 + stretch a) + shift a;  von Mises = |position - X| / 100;  muscles that nobody knows of rest
 FROM_ACTIVATION = (
     HEAD
     + """
 model (float[B,5] activation, float[B,Q,3] query_places) => (float[B,Q,3] position, float[B,Q] von_mises)
 <float[5,3] stretch = {0,0,0, 0,0,0, -0.2,0.2,0, 0,0,0, 0.1,-0.1,0},
  float[5,3] shift = {0,10,0, 0,0,5, 0,0,0, 0,0,0, 0,0,0},
- float one = {1.0}, float modulus = {0.01}, int64[1] points = {1}, int64[1] axis = {2}>
+ float one = {1.0}, float zero = {0.0}, float modulus = {0.01}, int64[1] points = {1}, int64[1] axis = {2}>
 {
-    scale = MatMul(activation, stretch)
+    unknown = IsNaN(activation)
+    known = Where(unknown, zero, activation)
+    scale = MatMul(known, stretch)
     scales = Unsqueeze(scale, points)
     factors = Add(scales, one)
-    way = MatMul(activation, shift)
+    way = MatMul(known, shift)
     ways = Unsqueeze(way, points)
     stretched = Mul(query_places, factors)
     position = Add(stretched, ways)

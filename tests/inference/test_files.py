@@ -1,6 +1,8 @@
 """Files around a model: sensors in, answers out, the truth beside shipped models, the models themselves."""
 
 import csv
+import io
+import zipfile
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +11,7 @@ import pytest
 from myograph.errors import InputError
 from myograph.inference.answer_file import write_answer
 from myograph.inference.answers import answer_of
+from myograph.inference.arrays import read_arrays
 from myograph.inference.fitting import check_same_body
 from myograph.inference.latency import forward_milliseconds
 from myograph.inference.sensor_file import read_sensors
@@ -29,6 +32,12 @@ def test_sensors_are_read_by_node_and_by_place(tmp_path):
     assert (places.tolist(), now.tolist()) == ([[0.5, 0, 10]], [[1, 2, 3]])
 
 
+def test_sensors_are_read_as_spreadsheets_write_them(tmp_path):
+    (tmp_path / "s.csv").write_bytes(b"\xef\xbb\xbf" + f"{HEAD}7,1,2,3\n".replace("\n", "\r\n").encode())
+    nodes, now = read_sensors(tmp_path / "s.csv")
+    assert (nodes.tolist(), now.tolist()) == ([7], [[1, 2, 3]])
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -36,7 +45,11 @@ def test_sensors_are_read_by_node_and_by_place(tmp_path):
         ("node,x,y,z\n", "got node, x, y, z"),
         ("node,node,x_mm,y_mm,z_mm\n", "each once"),
         (HEAD, "expected at least one sensor"),
-        (HEAD + "1,2,3\n", "line 2: expected a number in every column"),
+        (HEAD + "1,2,3\n", "line 2: expected 4 columns"),
+        (HEAD + "1,2,3,4,5\n", "line 2: expected 4 columns"),
+        (HEAD + "1,,3,4\n", "line 2: expected a number in every column"),
+        (HEAD + "4_6,2,3,4\n", "line 2: expected a number in every column"),
+        (HEAD + "1e300,2,3,4\n", "line 2: expected the number of a node"),
         (HEAD + "1,2,3,4\n1,2,three,4\n", "line 3: expected a number"),
         (HEAD + "1,2,nan,4\n", "line 2: expected finite"),
         (HEAD + "1.5,2,3,4\n", r"line 2: expected the number of a node, got 1\.5"),
@@ -107,6 +120,15 @@ def _changed(path, **other):
         ({"field_taste": np.zeros(3)}, "unknown fields taste"),
         ({"muscle": np.array("calf")}, "unknown muscle 'calf'"),
         ({"field_position": np.full((3, 40, 3), np.nan)}, "expected finite"),
+        ({"design": np.array("factorial")}, r"design: expected shape \(3,\) of kind 'U'"),
+        ({"hand_load": np.zeros(2)}, r"hand_load: expected shape \(3,\)"),
+        ({"elbow_angle": np.zeros(2)}, r"elbow_angle: expected shape \(3,\)"),
+        ({"activation": np.full((3, 5), "a")}, "activation: expected .* of kind 'f'"),
+        ({"activation": np.zeros(3)}, r"activation: expected shape \(None, 5\)"),
+        ({"reference": np.array(0.0)}, r"reference: expected shape \(None, 3\)"),
+        ({"field_position": np.zeros((3, 40))}, r"field_position: expected shape \(3, 40, 3\)"),
+        ({"skin": np.full((1, 4), 40)}, "skin: expected nodes from 0 to 39"),
+        ({"seconds": np.zeros(2)}, r"seconds: expected shape \(\)"),
     ],
 )
 def test_a_truth_that_does_not_fit_itself_is_refused(tmp_path, change, message):
@@ -122,6 +144,39 @@ def test_a_truth_that_is_none_is_refused(tmp_path):
     (tmp_path / "none.npz").write_text("PK")
     with pytest.raises(InputError, match="not a file of plain arrays"):
         read_truth(tmp_path / "none.npz")
+    (tmp_path / "zero.npz").symlink_to("/dev/zero")
+    with pytest.raises(InputError, match="expected a plain file"):
+        read_truth(tmp_path / "zero.npz")
+
+
+def _npy(header, data=b""):
+    """The bytes of an .npy file with that header, whatever it promises."""
+    text = header.ljust(117) + "\n"
+    return b"\x93NUMPY\x01\x00" + len(text).to_bytes(2, "little") + text.encode() + data
+
+
+def _npz(member):
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as packed:
+        packed.writestr("a.npy", member)
+    return file.getvalue()
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        _npz(_npy("{'descr': '<f4', 'fortran_order': False, 'shape': (4398046511104, 3)}", b"1234")),
+        _npz(_npy("{'descr': '<f4', 'fortran_order': False, 'shape': (3,)}", b"1234")),
+        _npz(_npy("{'descr': '|O', 'fortran_order': False, 'shape': (1,)}", b"12345678")),
+        _npz(_npy("{'descr': '<f4', 'fortran_order'")),
+        _npz(b"no array"),
+        _npz(b"no array").replace(b"\x00\x00\x00\x00", b"\x01\x00\x63\x00"),
+    ],
+    ids=["promises too much", "promises more", "pickled", "broken header", "no array", "encrypted, unknown packing"],
+)
+def test_arrays_that_are_not_what_they_say_are_refused_before_memory_is_taken(data):
+    with pytest.raises(InputError, match="not a file of plain arrays"):
+        read_arrays(data, "a.npz", 2**20)
 
 
 @pytest.fixture

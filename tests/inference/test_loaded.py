@@ -8,8 +8,9 @@ import pytest
 import myograph
 from myograph.ensemble.pairs.predictor import Predictor
 from myograph.ensemble.pairs.sampler import PairSampler
-from myograph.errors import InputError
+from myograph.errors import InputError, NotConvergedError
 from myograph.inference.session import run_session
+from myograph.inference.ways import NORMAL_90
 from tests.inference.stand_in import SENSORS, place, stand_in_cases
 
 ROUNDING = 1e-4  # mm: single precision of 100 mm
@@ -65,15 +66,88 @@ def test_sensors_by_place_are_those_at_the_nodes(mean):
     np.testing.assert_array_equal(by_place.values["position"], by_node.values["position"])
 
 
+def pulled_apart(model, nodes, by=6.0):
+    """Positions at which the last of the sensors is that far from the others [mm]."""
+    now = model.body.rest["position"][list(nodes)].astype(float)
+    now[-1, 0] += by
+    return now
+
+
 def test_half_widths_are_the_calibrated_scale_times_the_deviation(mean):
-    now = mean.body.rest["position"][[4, 30]] + [[0, 0, 0], [6, 0, 0]]
-    answer = mean.predict_sensors([4, 30], now)
+    answer = mean.predict_sensors(SENSORS, pulled_apart(mean, SENSORS))
+    np.testing.assert_allclose(answer.deviation["position"], 4.5, atol=ROUNDING)
+    np.testing.assert_allclose(answer.half_width_90["position"], 1.5 * 4.5, atol=ROUNDING)
+
+
+def test_other_sensors_than_those_that_calibrated_have_the_half_widths_of_a_normal_distribution(mean):
+    answer = mean.predict_sensors([4, 30], pulled_apart(mean, [4, 30]))
     np.testing.assert_allclose(answer.deviation["position"], 3.0, atol=ROUNDING)
-    np.testing.assert_allclose(answer.half_width_90["position"], 4.5, atol=ROUNDING)
+    np.testing.assert_allclose(answer.half_width_90["position"], NORMAL_90 * 3.0, atol=ROUNDING)
+    wide = replace(mean, told=mean.told.model_copy(update={"half_width_90": {"position": 2.0}}))
+    answer = wide.predict_sensors([4, 30], pulled_apart(mean, [4, 30]))
+    np.testing.assert_allclose(answer.half_width_90["position"], 2.0 * 3.0, atol=ROUNDING)
 
 
-def test_half_widths_without_deviation_are_the_same_everywhere(linear):
-    assert np.all(linear.predict_activation([0] * 5).half_width_90["position"] == 0.25)
+@pytest.mark.parametrize(("noise", "times"), [(0.0, 1.5), (0.1, NORMAL_90), (0.2, NORMAL_90), (0.6, 3 * NORMAL_90)])
+def test_half_widths_grow_with_the_noise_of_the_sensors_beyond_what_deviations_are_made_for(mean, noise, times):
+    noisy = _known(mean, sensor_noise=0.2)
+    answer = noisy.predict_sensors(SENSORS, pulled_apart(mean, SENSORS), sensor_noise=noise)
+    np.testing.assert_allclose(answer.half_width_90["position"], times * 4.5, atol=ROUNDING)
+
+
+def test_a_model_that_knows_no_noise_has_no_intervals_for_it(mean):
+    answer = mean.predict_sensors(SENSORS, pulled_apart(mean, SENSORS), sensor_noise=0.1)
+    assert answer.half_width_90 == {}
+
+
+def test_noise_explains_some_of_the_residual(mean):
+    """Of two sensors, one may be 8.5 mm from their mean where 8 mm are allowed and noise makes up for the rest."""
+    now = pulled_apart(mean, [4, 30], 17.0)
+    allowed = replace(mean, body=replace(mean.body, low=mean.body.low - 20, high=mean.body.high + 20))
+    assert allowed.predict_sensors([4, 30], now).inside.tolist() == [False]
+    needed = np.sqrt(8.5**2 - 8.0**2) / np.sqrt(13.2767 / 2)  # 99 % of chi-square with four degrees of freedom
+    for noise, inside in ((0.99 * needed, False), (1.01 * needed, True)):
+        assert allowed.predict_sensors([4, 30], now, sensor_noise=noise).inside.tolist() == [inside]
+
+
+def test_a_model_without_residual_is_outside_with_other_sensors_and_has_no_intervals_there(mean):
+    silent = _known(mean, outputs=("position",))
+    rest = mean.body.rest["position"]
+    usual = silent.predict_sensors(SENSORS, rest[list(SENSORS)])
+    assert usual.inside.tolist() == [True]
+    assert set(usual.half_width_90) == {"position"}
+    other = silent.predict_sensors([4, 30], rest[[4, 30]])
+    assert other.inside.tolist() == [False]
+    assert other.half_width_90 == {}
+
+
+@pytest.mark.parametrize("noise", [-0.1, np.nan, np.inf])
+def test_noise_that_cannot_be_is_refused(mean, noise):
+    with pytest.raises(InputError, match="expected a standard deviation in mm"):
+        mean.predict_sensors([4, 30], mean.body.rest["position"][[4, 30]], sensor_noise=noise)
+
+
+def test_activations_by_name_may_be_one_for_each_case(linear):
+    by_name = dict.fromkeys(myograph.MUSCLES, 0.0) | {"brachialis": 0.3, "biceps": [0.1, 0.9], "triceps": (0, 1)}
+    rows = [[0, 0.3, 0.1, 0, 0], [0, 0.3, 0.9, 0, 1]]
+    found, wanted = (linear.predict_activation(asked).values["position"] for asked in (by_name, rows))
+    np.testing.assert_array_equal(found, wanted)
+
+
+@pytest.mark.parametrize(
+    ("position", "error", "message"),
+    [
+        (np.zeros((1, 5)), InputError, r"position of shape \(1, 5\) and float64, expected \(1, 40, 3\)"),
+        (np.zeros((1, 1, 3)), InputError, "expected"),
+        (np.zeros((1, 40, 3), dtype=int), InputError, "int64"),
+        (np.full((1, 40, 3), np.nan), NotConvergedError, "position that is not finite"),
+    ],
+)
+def test_what_a_network_gives_is_checked(linear, monkeypatch, position, error, message):
+    given = {"position": position, "von_mises": np.zeros((1, 40))}
+    monkeypatch.setattr("myograph.inference.loaded.run_session", lambda *_: given)
+    with pytest.raises(error, match=message):
+        linear.predict_activation([0] * 5)
 
 
 @pytest.mark.parametrize(

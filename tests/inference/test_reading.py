@@ -3,6 +3,7 @@
 import hashlib
 import io
 import json
+import os
 import pickle
 import shutil
 import subprocess
@@ -10,6 +11,7 @@ import sys
 
 import numpy as np
 import onnx
+import onnx.helper
 import onnx.numpy_helper
 import onnx.parser
 import pytest
@@ -73,7 +75,7 @@ def test_an_altered_file_is_refused(folder, name):
 
 def test_a_file_that_is_too_large_is_not_read(folder, monkeypatch):
     monkeypatch.setitem(MOST_BYTES, NETWORK, 10)
-    with pytest.raises(InputError, match="copy the model anew"):
+    with pytest.raises(InputError, match="expected a file of at most 10 bytes"):
         load(folder)
 
 
@@ -142,8 +144,10 @@ def test_a_model_json_that_is_too_large_is_not_read(folder):
 
 
 def test_a_place_without_a_model_is_refused(tmp_path):
-    with pytest.raises(InputError, match=r"found no model\.json there"):
+    with pytest.raises(InputError, match="expected the folder of a saved model, found nothing there"):
         load(tmp_path / "nothing")
+    with pytest.raises(InputError, match=r"found no model\.json there"):
+        load(tmp_path)
 
 
 def _body(change):
@@ -183,6 +187,40 @@ def test_a_body_that_unpacks_to_too_much_is_not_read(monkeypatch):
 def test_nothing_is_unpickled():
     with pytest.raises(InputError, match="not a file of plain arrays"):
         body_of(pickle.dumps({"reference": 1}), "body.npz")
+
+
+def test_a_model_is_no_pipe_and_no_device(folder):
+    (folder / MODEL_FILE).unlink()
+    os.mkfifo(folder / MODEL_FILE)
+    with pytest.raises(InputError, match="expected a plain file"):
+        load(folder)
+
+
+def test_a_body_without_nodes_is_refused():
+    arrays = dict.fromkeys(("reference", "low", "high", "rest_position"), np.zeros((0, 3), dtype=np.float32))
+    file = io.BytesIO()
+    np.savez(file, **arrays, skin=np.zeros((0, 4), dtype=np.int32), cells=np.zeros((0, 8), dtype=np.int32))
+    with pytest.raises(InputError, match="expected a body of nodes, got none"):
+        body_of(file.getvalue(), "body.npz")
+
+
+@pytest.mark.parametrize(
+    ("change", "words"), [({"name": "a\x1b[2J"}, "name"), ({"half_width_90": {"position": -3.0}}, "half_width_90")]
+)
+def test_what_a_model_says_of_itself_can_be_shown_and_be(linear, tmp_path, change, words):
+    with pytest.raises(InputError, match=words):
+        load_again(linear.told.model_copy(update=change), tmp_path)
+
+
+def test_a_network_that_names_other_files_in_another_writing_is_refused(tmp_path):
+    """The length of a key may be written in more bytes than it needs."""
+    tensor = onnx.TensorProto(name="w", dims=[1], data_type=1, data_location=onnx.TensorProto.EXTERNAL)
+    tensor.external_data.add(key="location", value="secret")
+    written = onnx.helper.make_model(onnx.helper.make_graph([], "g", [], [], [tensor])).SerializeToString()
+    longer = written.replace(b"\n\x08location", b"\n\x88\x00location")
+    assert longer != written
+    with pytest.raises(InputError, match="names other files"):
+        open_session(longer, LINEAR, 1, "model.onnx")
 
 
 def test_a_network_that_names_other_files_is_refused(tmp_path):

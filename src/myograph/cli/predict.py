@@ -1,7 +1,8 @@
 """`myograph predict`: a muscle from activations or from measured sensors, by a saved model."""
 
 import time
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -16,9 +17,15 @@ from myograph.errors import InputError
 from myograph.export.steps import Step
 from myograph.export.vtkhdf import write_vtkhdf
 from myograph.inference.answer_file import arrays_of, check_kind, write_answer
+from myograph.inference.answers import joined
 from myograph.inference.loaded import LoadedModel, load
 from myograph.inference.sensor_file import read_sensors
 from myograph.inference.shipped import find_model
+
+AT_ONCE = 64
+"""Cases that are answered together: memory holds these, and what is to be written."""
+MOST_STATES = 10**7
+"""Nodes times cases of one file."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +35,12 @@ class _Asked:
     activation: np.ndarray | None
     hand_load: np.ndarray
     sensors: Path | None
+    sensor_noise: float = 0.0
+
+    @property
+    def size(self) -> int:
+        """Number of cases."""
+        return len(self.hand_load)
 
 
 def predict(
@@ -44,21 +57,29 @@ def predict(
     sensors: Annotated[
         Path | None, typer.Option(help="CSV with node (or place_x_mm, place_y_mm, place_z_mm), x_mm, y_mm, z_mm.")
     ] = None,
+    sensor_noise: Annotated[
+        float,
+        typer.Option(help="Standard deviation of a measured coordinate [mm], for intervals and verdict."),
+    ] = 0.0,
     load_n: Annotated[float, typer.Option("--load", help="Weight in the hand [N].")] = 0.0,
     out: Annotated[Path | None, typer.Option(help="Write all nodes to this .csv, .npz or .vtkhdf file.")] = None,
     json: Json = False,
 ) -> None:
     """Predict the deformed muscle at all nodes, and say whether the model knows such cases."""
     if out is not None:
-        check_kind(out)
-    asked = _asked(activation, activations, sensors, load_n)
+        _check_out(out, activations, sensors)
+    asked = replace(_asked(activation, activations, sensors, load_n), sensor_noise=sensor_noise)
     loaded = load(find_model(model, from_sensors=sensors is not None))
-    started = time.perf_counter()
-    answer = _answered(loaded, asked)
+    if out is not None and asked.size * loaded.body.nodes > MOST_STATES:
+        most = MOST_STATES // loaded.body.nodes
+        raise InputError(f"{out}: expected at most {most} cases in one file, got {asked.size}; ask in several")
+    started, cases, kept = time.perf_counter(), [], []
+    for answer in _answers(loaded, asked):
+        cases += describe_answer(loaded, answer)
+        kept += [answer] if out is not None else []
     milliseconds = 1000 * (time.perf_counter() - started)
     if out is not None:
-        _write(out, loaded, asked, answer)
-    cases = describe_answer(loaded, answer)
+        _write(out, loaded, asked, joined(kept))
     if json:
         head = {"model": loaded.name, "muscle": loaded.told.muscle, "nodes": loaded.body.nodes}
         place = None if out is None else str(out)
@@ -69,6 +90,12 @@ def predict(
         typer.echo(f"  case {number}: {_sentence(row)}")
     if out is not None:
         typer.echo(f"  {out}")
+
+
+def _check_out(out: Path, *read: Path | None) -> None:
+    check_kind(out)
+    if any(path is not None and path.resolve() == out.resolve() for path in read):
+        raise InputError(f"{out}: expected another file than the one that is read")
 
 
 def describe_answer(model: LoadedModel, answer: Answer) -> list[dict[str, Any]]:
@@ -138,7 +165,10 @@ def activation_numbers(text: str) -> list[float]:
         if "=" not in text:
             numbers = [float(part) for part in parts]
         else:
-            named = {check_muscle(name.strip()): float(value) for name, _, value in (p.partition("=") for p in parts)}
+            pairs = [part.partition("=") for part in parts]
+            named = {check_muscle(name.strip()): float(value) for name, _, value in pairs}
+            if len(named) < len(pairs):
+                raise InputError(f"--activation: expected every muscle once, got '{text}'")
             numbers = [named.get(name, 0.0) for name in MUSCLES]
     except ValueError:
         raise InputError(f"--activation: expected numbers such as 0,0,0.5,0,0 or biceps=0.5, got '{text}'") from None
@@ -147,12 +177,16 @@ def activation_numbers(text: str) -> list[float]:
     return numbers
 
 
-def _answered(model: LoadedModel, asked: _Asked) -> Answer:
-    if asked.sensors is None:
-        assert asked.activation is not None
-        return model.predict_activation(asked.activation, asked.hand_load)
-    nodes, now = read_sensors(asked.sensors)
-    return model.predict_sensors(nodes, now, activation=asked.activation, hand_load=asked.hand_load)
+def _answers(model: LoadedModel, asked: _Asked) -> Iterator[Answer]:
+    """Of some cases after the others."""
+    if asked.sensors is not None:
+        nodes, now = read_sensors(asked.sensors)
+        yield model.predict_sensors(nodes, now, None, asked.activation, asked.hand_load, asked.sensor_noise)
+        return
+    assert asked.activation is not None
+    for first in range(0, asked.size, AT_ONCE):
+        some = slice(first, first + AT_ONCE)
+        yield model.predict_activation(asked.activation[some], asked.hand_load[some])
 
 
 def _write(out: Path, model: LoadedModel, asked: _Asked, answer: Answer) -> None:

@@ -1,13 +1,13 @@
 """What a model gives becomes an Answer."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from jaxtyping import Bool
 
 from myograph.ensemble.pairs.question import Answer
-from myograph.errors import InputError
-from myograph.fields import FIELDS, von_mises
+from myograph.errors import InputError, NotConvergedError
+from myograph.fields import FIELDS, components_of, von_mises
 from myograph.inference.signature import DEVIATION, RESIDUAL
 
 
@@ -33,6 +33,34 @@ def answer_of(
         for name, scale in (scales_90 or {}).items()
     }
     return Answer(values, deviation, widths, inside)
+
+
+def joined(parts: Sequence[Answer]) -> Answer:
+    """Answers of one model to some cases after the others, as one."""
+    verdicts = [part.inside for part in parts if part.inside is not None]
+    return Answer(
+        *(
+            {name: np.concatenate([getattr(part, kind)[name] for part in parts]) for name in getattr(parts[0], kind)}
+            for kind in ("values", "deviation", "half_width_90")
+        ),
+        inside=np.concatenate(verdicts) if verdicts else None,
+    )
+
+
+def check_given(outputs: Mapping[str, np.ndarray], pairs: int, queries: int) -> None:
+    """Raise InputError for what a network gives in another shape or kind than it should, NotConvergedError for NaN."""
+    for name, array in outputs.items():
+        shape = _shape(name, pairs, queries)
+        if array.shape != shape or array.dtype.kind != "f":
+            raise InputError(f"the network gives {name} of shape {array.shape} and {array.dtype}, expected {shape}")
+        if not np.isfinite(array).all():
+            raise NotConvergedError(f"the network gives {name} that is not finite: ask within what it was trained on")
+
+
+def _shape(name: str, pairs: int, queries: int) -> tuple[int, ...]:
+    if name == RESIDUAL:
+        return (pairs,)
+    return (pairs, queries) if name.endswith(DEVIATION) else (pairs, queries, *components_of(name))
 
 
 def check_outputs(outputs: Iterable[str]) -> None:

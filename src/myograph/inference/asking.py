@@ -18,8 +18,8 @@ from myograph.inference.body_file import ModelBody
 from myograph.inference.signature import Signature
 
 Numbers = float | Sequence[Any] | np.ndarray
-Activation = Mapping[str, float] | Numbers
-"""By name, in the order of `myograph.MUSCLES`, or a row for each case [-]."""
+Activation = Mapping[str, Numbers] | Numbers
+"""By name (one number, or one for each case), in the order of `myograph.MUSCLES`, or a row for each case [-]."""
 Sensors = Numbers
 """Nodes, or places in the reference body (sensors, 3) [mm]."""
 
@@ -68,8 +68,9 @@ def activation_rows(activation: Activation) -> Float[np.ndarray, "cases muscles"
         missing = [name for name in MUSCLES if name not in activation]
         if missing:
             raise InputError(f"activation: expected all of {', '.join(MUSCLES)}, got none of {', '.join(missing)}")
-        activation = [activation[name] for name in MUSCLES]
     try:
+        if isinstance(activation, Mapping):
+            activation = np.stack(np.broadcast_arrays(*(activation[name] for name in MUSCLES)), axis=-1)
         rows = np.atleast_2d(np.asarray(activation, dtype=np.float64))
     except (TypeError, ValueError):
         raise InputError(f"activation: expected numbers, got {activation!r}") from None

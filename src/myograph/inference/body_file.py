@@ -14,12 +14,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from myograph.ensemble.spec import Body
 from myograph.errors import InputError
-from myograph.fields import FIELDS
-from myograph.inference.arrays import read_arrays
+from myograph.fields import FIELDS, components_of
+from myograph.inference.arrays import check_array, read_arrays
 
 MOST_UNPACKED = 2**28
 _REST = "rest_"
@@ -84,24 +84,21 @@ def _check(arrays: dict[str, np.ndarray], source: str) -> None:
             shapes[name] = (nodes, *_components(name, source))
     for name, shape in shapes.items():
         kind = "i" if name in ("skin", "cells") else "f"
-        _check_array(arrays.get(name), shape, kind, f"{source}: {name}")
+        check_array(arrays.get(name), shape, kind, f"{source}: {name}")
+    if not nodes:
+        raise InputError(f"{source}: expected a body of nodes, got none")
     for name in ("skin", "cells"):
-        if arrays[name].size and not 0 <= arrays[name].min() <= arrays[name].max() < nodes:
-            raise InputError(f"{source}: {name}: expected nodes from 0 to {nodes - 1}, got others")
+        check_nodes(arrays[name], nodes, f"{source}: {name}")
+
+
+def check_nodes(array: Int[np.ndarray, "..."], nodes: int, source: str) -> None:
+    """Raise InputError for a number that no node of a body of so many has."""
+    if array.size and not 0 <= array.min() <= array.max() < nodes:
+        raise InputError(f"{source}: expected nodes from 0 to {nodes - 1}, got others")
 
 
 def _components(name: str, source: str) -> tuple[int, ...]:
-    field = FIELDS.get(name.removeprefix(_REST)) if name.startswith(_REST) else None
-    if field is None:
+    field = name.removeprefix(_REST)
+    if not name.startswith(_REST) or field not in FIELDS:
         raise InputError(f"{source}: unknown array '{name}'")
-    return (len(field.components),) if field.components else ()
-
-
-def _check_array(array: np.ndarray | None, shape: tuple[int | None, ...], kind: str, source: str) -> None:
-    if array is None:
-        raise InputError(f"{source}: expected an array, found none")
-    fits = array.ndim == len(shape) and all(want in (None, got) for want, got in zip(shape, array.shape, strict=True))
-    if not fits or array.dtype.kind != kind:
-        raise InputError(f"{source}: expected shape {shape} of kind '{kind}', got {array.shape} of {array.dtype}")
-    if not np.isfinite(array).all():
-        raise InputError(f"{source}: expected finite numbers, got NaN or infinity")
+    return components_of(field)

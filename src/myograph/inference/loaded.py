@@ -1,5 +1,6 @@
 """A saved model ready to answer, by onnxruntime."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +12,7 @@ from jaxtyping import Float
 from myograph.case import MUSCLES
 from myograph.ensemble.pairs.question import Answer, Question
 from myograph.errors import InputError
-from myograph.inference.answers import answer_of
+from myograph.inference.answers import answer_of, check_given
 from myograph.inference.asking import (
     Activation,
     Asked,
@@ -28,8 +29,9 @@ from myograph.inference.feeds import WITHOUT_BATCH, feeds
 from myograph.inference.model_file import BODY, CARD, NETWORK, ModelFile, read_file, read_model_file
 from myograph.inference.question import check_question
 from myograph.inference.session import open_session, run_session
+from myograph.inference.shipped import find_model
 from myograph.inference.verdict import inside
-from myograph.inference.ways import scales_of
+from myograph.inference.ways import scales_of, with_noise
 
 PAIRS_AT_ONCE = 16
 
@@ -65,8 +67,12 @@ class LoadedModel:
     def predict(self, question: Question) -> Answer:
         """Answer a question about pairs, with a verdict whether each is within what training covered.
 
-        Raises InputError for a question that is not finite, not in the model's convention, or not from its sensors.
+        Raises InputError for a question that is not finite, not in the model's convention, or not from its sensors;
+        NotConvergedError where the network gives no numbers.
         """
+        return self._answered(question, 0.0)
+
+    def _answered(self, question: Question, sensor_noise: float) -> Answer:
         signature = self.told.signature
         check_question(question, signature)
         given = feeds(question, signature.inputs)
@@ -75,9 +81,10 @@ class LoadedModel:
             for first in range(0, max(question.size, 1), PAIRS_AT_ONCE)
         ]
         outputs = {name: np.concatenate([part[name] for part in parts]) for name in signature.outputs}
-        verdict = inside(question, outputs, (signature, self.told.trained_range, self.body))
+        check_given(outputs, question.size, len(question.query_nodes))
+        verdict = inside(question, outputs, (signature, self.told.trained_range, self.body), sensor_noise)
         scales = scales_of(question, signature, self.told.half_width_90, self.told.half_width_90_from)
-        return answer_of(outputs, scales, verdict)
+        return answer_of(outputs, with_noise(scales, signature, sensor_noise), verdict)
 
     def predict_activation(
         self, activation: Activation, hand_load: Numbers = 0.0, queries: Numbers | None = None
@@ -103,13 +110,17 @@ class LoadedModel:
         queries: Numbers | None = None,
         activation: Activation | None = None,
         hand_load: Numbers = 0.0,
+        sensor_noise: float = 0.0,
     ) -> Answer:
         """The muscle whose sensors are now at `positions` [mm]: at all nodes, or at those asked.
 
         `sensors` are nodes, or places in the reference body [mm]; `positions` are (sensors, 3), or a block for each
         case; the initial state is the body at rest. Activations are needed where the model takes them too and cannot do
-        without. Raises InputError for a model that answers from activations only.
+        without. `sensor_noise` is the standard deviation of a measured coordinate [mm]: half widths and the verdict
+        allow for it. Raises InputError for a model that answers from activations only.
         """
+        if not 0 <= sensor_noise < math.inf:
+            raise InputError(f"sensor noise: expected a standard deviation in mm, got {sensor_noise!r}")
         signature = self.told.signature
         if not signature.takes_sensors:
             raise InputError(f"{self.name}: answers from activations; expected them (predict_activation), got sensors")
@@ -125,15 +136,15 @@ class LoadedModel:
         if len(rows) != len(now):
             raise InputError(f"expected activations for {len(now)} cases, got {len(rows)}")
         asked = Asked(rows, _loads(hand_load, len(now)), nodes, now, queried(queries, self.body.nodes))
-        return self.predict(question_of(asked, signature, self.body))
+        return self._answered(question_of(asked, signature, self.body), sensor_noise)
 
 
 def load(folder: Path | str, threads: int = 1) -> LoadedModel:
-    """Read a saved model; every file is checked, nothing is unpickled, no other file is opened.
+    """Read a saved model, or a shipped one by its name; all is checked, nothing unpickled, no other file opened.
 
     Raises InputError where it is missing, truncated, altered, of another schema, or does not fit together.
     """
-    folder = Path(folder)
+    folder = find_model(str(folder))
     told = read_model_file(folder)
     body = body_of(read_file(folder, BODY, told.files[BODY]), str(folder / BODY))
     read_file(folder, CARD, told.files[CARD])

@@ -20,6 +20,7 @@ from myograph.case import MUSCLES, check_muscle
 from myograph.config import Model, parse
 from myograph.errors import InputError
 from myograph.fields import FIELDS
+from myograph.files import read_bounded
 from myograph.inference.answers import check_outputs
 from myograph.inference.feeds import check_inputs
 from myograph.inference.signature import Signature
@@ -31,6 +32,9 @@ MOST_BYTES = {MODEL_FILE: 2**20, NETWORK: 2**29, BODY: 2**26, WEIGHTS: 2**29, CA
 """The files of a saved model, and how large each may be; larger ones are not read."""
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
+Scale = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Word = Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f-\x9f]*$")]
+"""Text of one line that a terminal may show: no control characters."""
 PerMuscle = Annotated[tuple[Number, ...], Field(min_length=len(MUSCLES), max_length=len(MUSCLES))]
 
 
@@ -136,8 +140,8 @@ class ModelFile(Model):
     """
 
     schema_version: Literal[1] = SCHEMA
-    name: str
-    method: str
+    name: Word
+    method: Word
     muscle: str
     signature: Signature
     fields: dict[str, str]
@@ -146,8 +150,8 @@ class ModelFile(Model):
     opset: int
     parity: Number
     metrics: dict[str, dict[str, Number]]
-    half_width_90: dict[str, Number]
-    half_width_90_from: dict[Way, dict[str, Number]] = Field(default_factory=dict)
+    half_width_90: dict[str, Scale]
+    half_width_90_from: dict[Way, dict[str, Scale]] = Field(default_factory=dict)
     trained_range: TrainedRange
     origin: Origin
     limits: tuple[str, ...]
@@ -178,14 +182,11 @@ def read_model_file(folder: Path) -> ModelFile:
 def read_file(folder: Path, name: str, record: FileRecord) -> bytes:
     """The bytes of a file of the model; raises InputError unless they are those that were written."""
     path = folder / name
-    try:
-        size = path.stat().st_size if path.is_file() else -1
-        if size != record.size or size > MOST_BYTES[name]:
-            found = "none" if size < 0 else f"{size}"
-            raise InputError(f"{path}: expected a file of {record.size} bytes, got {found}; copy the model anew")
-        data = path.read_bytes()
-    except OSError as problem:
-        raise InputError(f"{path}: cannot be read: {problem.strerror}") from None
+    if record.size > MOST_BYTES[name]:
+        raise InputError(f"{path}: expected a file of at most {MOST_BYTES[name]} bytes, got one of {record.size}")
+    data = read_bounded(path, MOST_BYTES[name])
+    if len(data) != record.size:
+        raise InputError(f"{path}: expected a file of {record.size} bytes, got {len(data)}; copy the model anew")
     found = hashlib.sha256(data).hexdigest()
     if found != record.sha256:
         raise InputError(f"{path}: expected SHA-256 {record.sha256}, got {found}: it was altered; copy the model anew")
@@ -193,14 +194,13 @@ def read_file(folder: Path, name: str, record: FileRecord) -> bytes:
 
 
 def _unpacked(folder: Path, path: Path) -> dict[str, Any]:
+    if not path.exists():
+        raise InputError(f"{folder}: expected the folder of a saved model, found no {MODEL_FILE} there")
+    data = read_bounded(path, MOST_BYTES[MODEL_FILE])
     try:
-        if path.stat().st_size > MOST_BYTES[MODEL_FILE]:
-            raise InputError(f"{path}: expected at most {MOST_BYTES[MODEL_FILE]} bytes, got {path.stat().st_size}")
-        whole = json.loads(path.read_text(encoding="utf-8"))
+        whole = json.loads(data.decode("utf-8"))
         content, checksum = dict(whole["model"]), whole["sha256"]
-    except (FileNotFoundError, NotADirectoryError):
-        raise InputError(f"{folder}: expected the folder of a saved model, found no {MODEL_FILE} there") from None
-    except (OSError, ValueError, KeyError, TypeError, RecursionError) as problem:
+    except (ValueError, KeyError, TypeError, RecursionError) as problem:
         raise InputError(f"{path}: not a saved model: {problem}") from None
     if checksum != _checksum(content):
         raise InputError(f"{path}: its content does not match its own checksum: it was altered; copy the model anew")

@@ -4,30 +4,26 @@ Columns: `node`, or its place in the reference body `place_x_mm place_y_mm place
 z_mm`.
 """
 
-import csv
-from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float, Shaped
 
+from myograph.ensemble.csv_rows import Row, number, read_rows
 from myograph.errors import InputError
 
 NODE, PLACE, NOW = ("node",), ("place_x_mm", "place_y_mm", "place_z_mm"), ("x_mm", "y_mm", "z_mm")
+MOST = 2**53
+"""Numbers of nodes beyond are no longer told apart."""
 
 
 def read_sensors(path: Path) -> tuple[Shaped[np.ndarray, "sensors ..."], Float[np.ndarray, "sensors 3"]]:
     """Nodes, or places in the reference body [mm], and positions [mm]; raises InputError with file and line."""
-    try:
-        with path.open(newline="", encoding="utf-8") as file:
-            reader = csv.DictReader(file)
-            named = _named_by(path, list(reader.fieldnames or []))
-            rows = [_row(f"{path}, line {reader.line_num}", row, named) for row in reader]
-    except (OSError, UnicodeDecodeError, csv.Error) as problem:
-        raise InputError(f"{path}: not a readable CSV file: {problem}") from None
+    columns, rows = read_rows(path)
+    named = _named_by(path, columns)
     if not rows:
         raise InputError(f"{path}: expected at least one sensor, got none")
-    numbers = np.array(rows)
+    numbers = np.array([_row(f"{path}, line {line}", row, named) for line, row in rows])
     where, now = numbers[:, : len(named)], numbers[:, len(named) :]
     return (where[:, 0].astype(np.int64) if named == NODE else where), now
 
@@ -40,13 +36,13 @@ def _named_by(path: Path, columns: list[str]) -> tuple[str, ...]:
     raise InputError(f"{path}: expected the columns {wanted}, each once, got {', '.join(columns) or 'none'}")
 
 
-def _row(place: str, row: Mapping[str, str | None], named: tuple[str, ...]) -> list[float]:
+def _row(place: str, row: Row, named: tuple[str, ...]) -> list[float]:
     try:
-        numbers = [float(row[name] or "") for name in (*named, *NOW)]
-    except (ValueError, TypeError) as problem:
+        numbers = [number(row[name]) for name in (*named, *NOW)]
+    except ValueError as problem:
         raise InputError(f"{place}: expected a number in every column: {problem}") from None
     if not np.isfinite(numbers).all():
         raise InputError(f"{place}: expected finite numbers, got {numbers}")
-    if named == NODE and numbers[0] != int(numbers[0]):
+    if named == NODE and (numbers[0] != int(numbers[0]) or abs(numbers[0]) > MOST):
         raise InputError(f"{place}: expected the number of a node, got {numbers[0]}")
     return numbers

@@ -8,8 +8,8 @@ import onnxruntime
 from myograph.errors import InputError
 from myograph.inference.signature import Signature
 
-_OUTSIDE = b"\n\x08location"
-"""How a tensor begins to say that its numbers lie in another file."""
+_OUTSIDE = b"location"
+"""The key by which a tensor says that its numbers lie in another file; how its length is written may differ."""
 
 
 def open_session(data: bytes, signature: Signature, threads: int, source: str) -> onnxruntime.InferenceSession:

@@ -20,6 +20,9 @@ Outputs, float32, in order:
 """
 
 import re
+from typing import Annotated
+
+from pydantic import Field
 
 from myograph.config import Model
 from myograph.ensemble.pairs.question import Convention
@@ -43,6 +46,8 @@ class Signature(Model):
         Whether it answers from other sensors too, in any number from `least_sensors` on; 0 means: also from none.
     unknown_activation
         Whether it answers where the activations are not known: all of them NaN.
+    sensor_noise
+        Standard deviation of a measured coordinate [mm] that its deviations are made for; None where it knows none.
     """
 
     inputs: tuple[str, ...]
@@ -52,6 +57,7 @@ class Signature(Model):
     any_sensors: bool = False
     least_sensors: int = 1
     unknown_activation: bool = False
+    sensor_noise: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
 
     @property
     def takes_sensors(self) -> bool:

@@ -13,13 +13,14 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Int
 
-from myograph.case import check_muscle
+from myograph.case import MUSCLES, check_muscle
 from myograph.ensemble.muscle_cases import MuscleCases, cases_in_memory
 from myograph.ensemble.spec import Body
 from myograph.errors import InputError
-from myograph.fields import FIELDS
-from myograph.files import write_whole
-from myograph.inference.arrays import read_arrays
+from myograph.fields import FIELDS, components_of
+from myograph.files import read_bounded, write_whole
+from myograph.inference.arrays import check_array, read_arrays
+from myograph.inference.body_file import check_nodes
 
 SCHEMA = 1
 FINEST = {"mm": -13, "MPa": -16}
@@ -81,11 +82,7 @@ def _rounded(values: np.ndarray, name: str) -> np.ndarray:
 
 def read_truth(path: Path) -> MuscleCases:
     """The cases; raises InputError for a file that is missing, damaged, of another schema, or does not fit itself."""
-    try:
-        data = path.read_bytes() if path.stat().st_size <= MOST_BYTES else b""
-    except OSError as problem:
-        raise InputError(f"{path}: cannot be read: {problem.strerror}") from None
-    arrays = read_arrays(data, str(path), MOST_BYTES)
+    arrays = read_arrays(read_bounded(path, MOST_BYTES), str(path), MOST_BYTES)
     missing = [name for name in _NEEDED if name not in arrays]
     if missing:
         raise InputError(f"{path}: expected the arrays {', '.join(_NEEDED)}, found no {', '.join(missing)}")
@@ -95,7 +92,29 @@ def read_truth(path: Path) -> MuscleCases:
     foreign = [name for name in fields if name not in FIELDS]
     if foreign:
         raise InputError(f"{path}: unknown fields {', '.join(foreign)}")
+    _check(arrays, fields, str(path))
     return _cases(arrays, fields)
+
+
+def _check(arrays: dict[str, np.ndarray], fields: dict[str, np.ndarray], source: str) -> None:
+    """Raise InputError for an array of another kind or shape than the others need."""
+    check_array(arrays["activation"], (None, len(MUSCLES)), "f", f"{source}: activation")
+    check_array(arrays["reference"], (None, 3), "f", f"{source}: reference")
+    cases, nodes = len(arrays["activation"]), len(arrays["reference"])
+    words = dict.fromkeys(("muscle", *_WORDS), ((), "U"))
+    shapes: dict[str, tuple[tuple[int | None, ...], str]] = {
+        **words,
+        "design": ((cases,), "U"),
+        **dict.fromkeys(("hand_load", "elbow_angle"), ((cases,), "f")),
+        "skin": ((None, 4), "i"),
+        "cells": ((None, None), "i"),
+        **{_FIELD + name: ((cases, nodes, *components_of(name)), "f") for name in fields},
+        **({"seconds": ((), "f")} if "seconds" in arrays else {}),
+    }
+    for name, (shape, kind) in shapes.items():
+        check_array(arrays[name], shape, kind, f"{source}: {name}", unknown=name == "elbow_angle")
+    for name in ("skin", "cells"):
+        check_nodes(arrays[name], nodes, f"{source}: {name}")
 
 
 def _cases(arrays: dict[str, np.ndarray], fields: dict[str, np.ndarray]) -> MuscleCases:

@@ -11,7 +11,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from myograph.ensemble.pairs.question import Question
-from myograph.inference.signature import Signature
+from myograph.inference.signature import DEVIATION, RESIDUAL, Signature
 
 Way = Literal["activation", "sensors"]
 """Told nothing else, by a model that could be told more."""
@@ -20,6 +20,8 @@ WHOLE = "all"
 """The way of being told everything."""
 Scales = Mapping[str, float]
 """Field -> half width over deviation, or half width in the field's unit."""
+NORMAL_90 = 1.645
+"""Half width over deviation that holds 90 % of a normal distribution along a line, and more of one across space."""
 
 
 def ways(signature: Signature) -> tuple[Way, ...]:
@@ -54,7 +56,47 @@ def without_activation(question: Question) -> Question:
 def scales_of(
     question: Question, signature: Signature, whole: Scales, alone: Mapping[Way, Scales]
 ) -> dict[str, np.ndarray]:
-    """Field -> the scale of each pair, by the way it is told; those of `whole` where `alone` says nothing else."""
+    """Field -> the scale of each pair, by the way it is told; those of `whole` where `alone` says nothing else.
+
+    Scales are calibrated with the sensors of the training. For others a field has at least `NORMAL_90` where the model
+    says deviations, which know how many sensors there are and where; else it has none.
+    """
+    found = _by_way(question, signature, whole, alone)
+    if usual_sensors(question, signature):
+        return found
+    known = [name for name in found if name + DEVIATION in signature.outputs]
+    return {name: np.maximum(found[name], NORMAL_90) for name in known}
+
+
+def with_noise(scales: Mapping[str, np.ndarray], signature: Signature, sensor_noise: float) -> dict[str, np.ndarray]:
+    """The scales where coordinates of sensors are measured with this standard deviation [mm], not exactly.
+
+    Deviations are made for the noise of the signature, and grow with it at most in proportion; a model that knows none
+    has no intervals.
+    """
+    if not sensor_noise:
+        return dict(scales)
+    if signature.sensor_noise is None:
+        return {}
+    times = max(1.0, sensor_noise / signature.sensor_noise)
+    known = [name for name in scales if name + DEVIATION in signature.outputs]
+    return {name: times * np.maximum(scales[name], NORMAL_90) for name in known}
+
+
+def usual_sensors(question: Question, signature: Signature) -> bool:
+    """Whether it is told by the sensors of the training, or by none."""
+    given = set(question.sensor_nodes.tolist())
+    return not signature.takes_sensors or not given or given == set(signature.sensors)
+
+
+def judges_sensors(question: Question, signature: Signature) -> bool:
+    """Whether the model knows these sensors, or tells by its residual how well it explains any."""
+    return usual_sensors(question, signature) or RESIDUAL in signature.outputs
+
+
+def _by_way(
+    question: Question, signature: Signature, whole: Scales, alone: Mapping[Way, Scales]
+) -> dict[str, np.ndarray]:
     if not alone or not ways(signature):
         return {name: np.full(question.size, scale) for name, scale in whole.items()}
     known = np.asarray(~np.isnan(question.activation).all(axis=1))

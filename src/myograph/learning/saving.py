@@ -91,7 +91,7 @@ def save_model(model: Saveable, training: Training, folder: Path, opset: int = 1
         NETWORK: exported.network,
         BODY: body_bytes(model_body(training.cases, training.split, model.signature.rest_fields)),
         WEIGHTS: safetensors.torch.save(state),
-        CARD: card(told, training.cases).encode(),
+        CARD: card(told, training.cases.nodes).encode(),
     }
     return write_model(told, files, folder)
 

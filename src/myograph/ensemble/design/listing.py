@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from myograph.case import MUSCLES, Case
-from myograph.ensemble.csv_rows import read_rows
+from myograph.ensemble.csv_rows import number, read_rows
 from myograph.errors import InputError
 from myograph.units import radians
 
@@ -43,9 +43,9 @@ def _case(path: Path, line: int, row: Mapping[str, str]) -> Case:
     try:
         angle = row.get("elbow_angle_deg")
         return Case(
-            tuple(float(row[name]) for name in MUSCLES),
-            float(row.get("hand_load_n") or 0),
-            radians(float(angle)) if angle else None,
+            tuple(number(row[name]) for name in MUSCLES),
+            number(row.get("hand_load_n") or "0"),
+            radians(number(angle)) if angle else None,
         )
     except (ValueError, InputError) as problem:
         raise InputError(f"{path}, line {line}: {problem}") from None

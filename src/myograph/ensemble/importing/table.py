@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from myograph.case import MUSCLES, Case
-from myograph.ensemble.csv_rows import Row, read_rows
+from myograph.ensemble.csv_rows import Row, number, read_rows
 from myograph.ensemble.design.cases import Design
 from myograph.ensemble.importing.mapping import CasesMapping
 from myograph.errors import InputError
@@ -50,7 +50,7 @@ def _columns(path: Path, mapping: CasesMapping, found: list[str]) -> dict[str, s
 
 
 def _case(row: Row, columns: dict[str, str], absent: float | None) -> Case:
-    activations = tuple(float(row[columns[name]]) if name in columns else float(absent or 0) for name in MUSCLES)
+    activations = tuple(number(row[columns[name]]) if name in columns else absent or 0.0 for name in MUSCLES)
     angle = row[columns["elbow_angle_deg"]] if "elbow_angle_deg" in columns else ""
     load = row[columns["hand_load_n"]] if "hand_load_n" in columns else ""
-    return Case(activations, float(load or 0), radians(float(angle)) if angle else None)
+    return Case(activations, number(load or "0"), radians(number(angle)) if angle else None)

@@ -24,6 +24,8 @@ from myograph.learning.training.drawing import hold_out
 
 SCALED_ON = 64
 """Pairs that the unit of what a skip leaves over is made from."""
+LEAST_AFFINE = 4
+"""Points that decide an affine map of space."""
 
 
 @dataclass(frozen=True)
@@ -138,7 +140,7 @@ def _signature(module: MuscleGen, trained: Signature) -> Signature:
         convention=trained.convention,
         sensors=trained.sensors,
         any_sensors=mean,
-        least_sensors=0 if either and mean else 1,
+        least_sensors=0 if either and mean else LEAST_AFFINE if module.config.skip == "affine" else 1,
         unknown_activation=either,
     )
 

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from myograph.config import Model
 from myograph.learning.modes.marquardt import Course
@@ -56,6 +56,14 @@ class ModesConfig(Model):
     sensor_noise: float = Field(default=0.1, gt=0)
     activation_noise: float = Field(default=0.01, gt=0)
     seed: int = Field(default=0, ge=0)
+
+    @model_validator(mode="after")
+    def _uses_what_it_reads(self) -> "ModesConfig":
+        if self.reads == "both" and self.sensing == "ridge":
+            raise ValueError(
+                "sensing: by 'ridge' sensors decide all amounts, and activations none; set reads = 'sensors'"
+            )
+        return self
 
     @property
     def course(self) -> Course:

@@ -115,6 +115,7 @@ def predictor(name: str, module: ModesModule, sampler: PairSampler) -> TorchPred
         sensors=tuple(sampler.sensors.tolist()) if sensing else (),
         any_sensors=sensing,
         least_sensors=1 if reads == "sensors" else 0,
+        sensor_noise=module.settings.sensor_noise if sensing else None,
         unknown_activation=reads == "both",
     )
     return TorchPredictor(name, "modes", module, signature, module.built)

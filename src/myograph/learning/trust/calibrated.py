@@ -17,7 +17,7 @@ from myograph.ensemble.pairs.protocols import SUPPORT, PairSet, Split
 from myograph.ensemble.pairs.question import Answer, Question
 from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.errors import InputError
-from myograph.inference.ways import Way, scales_of
+from myograph.inference.ways import Way, judges_sensors, scales_of
 from myograph.learning.torch_predictor import TorchPredictor
 from myograph.learning.trust.conformal import conformal_factor, promises
 from myograph.learning.trust.nearness import Nearness, nearness
@@ -84,6 +84,8 @@ class CalibratedPredictor:
         agrees = np.ones(question.size, dtype=bool)
         if residual is not None and self.residual_mm is not None:
             agrees = residual <= self.residual_mm
+        if isinstance(self.predictor, TorchPredictor):
+            agrees = agrees & judges_sensors(question, self.predictor.signature)
         if not _reads_activation(self.predictor):
             return agrees
         unknown = np.asarray(np.isnan(question.activation).any(axis=1))

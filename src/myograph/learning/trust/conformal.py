@@ -5,10 +5,10 @@ r"""Split-conformal intervals for fields: how many deviations hold 90 % of the t
     interval                      predicted ± q deviation
 
 over calibration cases, which taught nothing; w is the weight of a case, W the sum of all. Where the case asked is
-exchangeable with these, or drawn from elsewhere and w is the ratio of both densities, a node of it lies in its interval
-with a probability of at least 0.9, for any method and any number of cases: nodes of one case depend on each other, so
-cases are counted, not nodes, and the case asked counts as one that holds none. In all other cases coverage has to be
-measured: `myograph.learning.trust.coverage`.
+exchangeable with these, or drawn from elsewhere, w is the ratio of both densities and the case asked weighs no more
+than max w, a node of it lies in its interval with a probability of at least 0.9, for any method and any number of
+cases: nodes of one case depend on each other, so cases are counted, not nodes, and the case asked counts as one that
+holds none. In all other cases coverage has to be measured: `myograph.learning.trust.coverage`.
 Sources: Papadopoulos et al. 2002; Tibshirani et al. 2019 for weights; Lee, Barber & Willett 2023 for cases of many
 nodes.
 """
