@@ -13,6 +13,7 @@ pytest.importorskip("torch", reason="training needs torch")
 
 from myograph.cli.train import fitting, train, verb
 from myograph.cli.train.judging import judge
+from myograph.ensemble.pairs.protocols import split_pairs
 from myograph.errors import InputError, MissingPackageError
 from myograph.learning import saving
 from tests.learning.conftest import stand_in
@@ -163,6 +164,11 @@ def test_sensors_may_be_listed(place, monkeypatch):
         (GEN.replace("pairs", 'muscle = "deltoid"\npairs'), (), "muscle: expected one of .*got 'deltoid'"),
         (GEN.replace("pairs", "sensors = 1000\npairs"), (), "expected between 1 and 152 sensors"),
         (GEN.replace("pairs", 'asked = ["colour"]\npairs'), (), "expected one of the fields .*got 'colour'"),
+        (GEN.replace("pairs", "asked = []\npairs"), (), "asked: .*at least 1 item"),
+        (GEN.replace("[training]", "hidden = [-1]\n[training]"), (), "hidden.0: .*greater than or equal to 1, got -1"),
+        (GEN.replace("[training]", "inputs = [[]]\n[training]"), (), "inputs.0: .*at least 1 item"),
+        (GEN.replace("steps = 6", f"steps = 6\nseed = {10**30}"), (), "training: seed: "),
+        (FEED_FORWARD + "[options]\nsurface_only = true\n", (), "surface_only: a saved model answers at all nodes"),
         (GEN, ("--device", "tpu"), "--device: expected one of auto, cpu, cuda, got 'tpu'"),
         (
             GEN.replace("[options]", '[options]\nskip = "affine"\nactivation_input = true'),
@@ -191,6 +197,28 @@ def test_a_mistake_is_named(place, text, options, words):
     with pytest.raises(InputError, match=words):
         run(text, *options)
     assert not (place / "asked").exists()
+
+
+def test_a_field_that_is_not_judged_is_not_learned_alone(place, monkeypatch):
+    cases = stand_in()
+    further = replace(cases, fields=(*cases.fields, "fibre_stretch"))
+    monkeypatch.setattr(verb, "read_muscle", lambda store, muscle: further)
+    monkeypatch.setattr(verb, "fit", lambda *_: pytest.fail("it was trained"))
+    with pytest.raises(InputError, match="expected one of cauchy_stress, position, von_mises among them"):
+        run(FEED_FORWARD.replace("pairs", 'asked = ["fibre_stretch"]\npairs'))
+
+
+def test_two_trainings_that_begin_at_once_do_not_share_a_folder(place, monkeypatch):
+    """The other one claims the folder between this one's look and its own claim, or overwrites that."""
+    claimed = verb.claim_folder
+
+    def late(out, asked, cases):
+        claimed(out, asked, cases)
+        (out / "train.json").write_text((out / "train.json").read_text().replace('"feed_forward"', '"gen"'))
+
+    monkeypatch.setattr(verb, "claim_folder", late)
+    with pytest.raises(InputError, match="holds another training: method was gen, now feed_forward"):
+        run(FEED_FORWARD)
 
 
 def test_a_gpu_where_there_is_none_is_a_mistake(place):
@@ -267,6 +295,16 @@ def test_a_method_with_cases_enough_is_saved_with_its_intervals(place, monkeypat
     assert model.name == "feed_forward"
     assert training.half_width_90["position"] > 0
     assert training.split_seed == 0
+    cases = stand_in()
+    all_of_it = len(split_pairs(cases, "off_grid").train.cases)
+    assert len(training.split.train.cases) == all_of_it - round(0.4 * all_of_it)
+
+
+def test_the_seed_of_a_method_without_steps_is_that_of_its_options(place, monkeypatch):
+    saved = []
+    monkeypatch.setattr(saving, "save_model", lambda model, training, folder: saved.append(training))
+    run('store = "store"\nmethod = "pod_gp"\npairs = 4\n[options]\nseed = 5\n')
+    assert saved[0].seed == 5
 
 
 def test_too_few_cases_calibrate_nothing(place, monkeypatch):

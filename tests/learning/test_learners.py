@@ -6,6 +6,7 @@ import pytest
 from myograph.ensemble.pairs.predictor import Learner
 from myograph.errors import InputError
 from myograph.learning.baselines.deeponet import DeepONet
+from myograph.learning.gen.config import NetworkConfig
 from myograph.learning.learners import LEARNERS, Asked, Untaught, make_learner
 from myograph.learning.trust.calibrated import CalibratedLearner
 
@@ -40,9 +41,16 @@ def test_the_thesis_s_network_is_its_own_method():
     assert learner.network.outputs == (("coordinates",),)
 
 
+def test_the_best_graph_network_has_a_name():
+    learner = make_learner(Asked("gen_improved"))
+    assert learner.name == "gen_improved_8"
+    assert learner.network == NetworkConfig.improved()
+
+
 @pytest.mark.parametrize(
     ("asked", "words"),
     [
+        (Asked("deeponet", {"branch": [-1]}), "options of deeponet: branch.0: .*greater than or equal to 1, got -1"),
         (Asked("gap_pod"), "unknown method 'gap_pod': expected one of .*did you mean 'gappy_pod'"),
         (Asked("xyz"), "unknown method 'xyz': expected one of [^;]*$"),
         (Asked("gen", {"latnt": 3}), "options of gen: unknown key 'latnt'; did you mean 'latent'"),

@@ -237,6 +237,15 @@ def test_weights_that_do_not_fit_are_refused(folder, tmp_path):
             load_torch(tmp_path / "model", lambda config, shapes: Mixed(Widths(**config)))
 
 
+@pytest.mark.parametrize("problem", [MemoryError(), KeyError("a.b"), RuntimeError("negative dimension"), ValueError()])
+def test_a_configuration_that_no_module_can_have_is_refused(folder, problem):
+    def build(config, shapes):
+        raise problem
+
+    with pytest.raises(InputError, match=r"does not fit what model\.json says"):
+        load_torch(folder, build)
+
+
 def test_altered_weights_are_refused(folder, tmp_path):
     told = load(folder).told
     write_model(told, {name: (folder / name).read_bytes() for name in told.files}, tmp_path / "model")

@@ -23,7 +23,7 @@ ROWS: dict[str, tuple[str, Mapping[str, object]]] = {
     "gen_thesis_pyg": ("gen_thesis", {"processor": "GCNConv"}),
 }
 """Row -> method and its options."""
-STEPPED = frozenset({"gen", "gen_thesis", "feed_forward", "deeponet"})
+STEPPED = frozenset({"gen", "gen_thesis", "gen_improved", "feed_forward", "deeponet"})
 """Methods that are trained in steps."""
 TIMED, TESTED, PAIRS_AT_ONCE = 20, 128, 16
 """Calls that are timed; test pairs, at most; pairs that are answered together."""

@@ -3,7 +3,8 @@
     do_nothing, affine, thin_plate_spline    nothing is learned
     gappy_pod, pod_gp                        linear algebra and Gaussian processes; no steps
     neural_modes                             its own steps
-    gen, gen_thesis, feed_forward, deeponet  trained by `myograph.learning.training`
+    gen, gen_thesis, gen_improved, feed_forward, deeponet
+                                             trained by `myograph.learning.training`
 
 A method's module is imported when it is asked for.
 """
@@ -144,9 +145,9 @@ def _gen(asked: Asked) -> Learner:
     from myograph.learning.gen.config import NetworkConfig
     from myograph.learning.gen.learner import GenLearner
 
-    thesis = asked.method == "gen_thesis"
-    network = asked.options_over(NetworkConfig.thesis() if thesis else NetworkConfig())
-    called = f"gen_thesis_{network.nodes_per_axis**3}" if thesis else None
+    presets = {"gen_thesis": NetworkConfig.thesis, "gen_improved": NetworkConfig.improved}
+    network = asked.options_over(presets.get(asked.method, NetworkConfig)())
+    called = f"{asked.method}_{network.nodes_per_axis**3}"
     return GenLearner(network, asked.training_over(TrainingConfig()), called, asked.folder)
 
 
@@ -173,6 +174,7 @@ LEARNERS: dict[str, Callable[[Asked], Learner]] = {
     "neural_modes": _neural_modes,
     "gen": _gen,
     "gen_thesis": _gen,
+    "gen_improved": _gen,
     "feed_forward": _feed_forward,
     "deeponet": _deeponet,
 }

@@ -109,10 +109,11 @@ def load_torch(folder: Path, rebuild: Rebuild | None = None) -> TorchPredictor:
     except safetensors.SafetensorError as problem:
         raise InputError(f"{path}: not a file of weights: {problem}") from None
     shapes = {name: tuple(tensor.shape) for name, tensor in state.items()}
-    module = (rebuild or rebuild_of(told.method))(told.config, shapes)
+    build = rebuild or rebuild_of(told.method)
     try:
+        module = build(told.config, shapes)
         module.load_state_dict(state)
-    except RuntimeError as problem:
+    except (ArithmeticError, LookupError, MemoryError, RuntimeError, TypeError, ValueError) as problem:
         raise InputError(f"{path}: does not fit what model.json says: {problem}") from None
     return TorchPredictor(told.name, told.method, module.eval(), told.signature, AsSaved(**told.config))
 

@@ -228,3 +228,13 @@ def test_a_model_of_sensors_cannot_read_activations(both, sampler):
     deaf = read(both, sampler, reads="sensors")
     with pytest.raises(InputError, match="learned from sensors only"):
         reading(deaf, sampler, ModesConfig())
+
+
+def test_a_number_of_modes_for_a_field_that_is_not_answered_is_a_mistake(sampler, split):
+    with pytest.raises(InputError, match=r"modes_of: expected some of position, .*got nonsense"):
+        ModesLearner(ModesConfig(modes_of={"nonsense": 3}, **QUICK)).fit(sampler, split)
+
+
+def test_a_ridge_beside_activations_is_a_mistake():
+    with pytest.raises(ValueError, match="set reads = 'sensors'"):
+        ModesConfig(reads="both", sensing="ridge")

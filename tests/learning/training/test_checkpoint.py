@@ -168,6 +168,16 @@ def test_altered_bytes_are_found(field, tmp_path):
         train(*field(), folder=tmp_path)
 
 
+def test_altered_numbers_beside_the_tensors_are_found(field, tmp_path):
+    train(*field(), folder=tmp_path)
+    data = (tmp_path / FILE).read_bytes()
+    altered = data.replace(b'waited\\": 0', b'waited\\": 9')
+    assert altered != data
+    (tmp_path / FILE).write_bytes(altered)
+    with pytest.raises(InputError, match="altered bytes"):
+        train(*field(), folder=tmp_path)
+
+
 def test_the_remains_of_a_checkpoint_that_was_being_written_are_swept_away(field, tmp_path):
     (tmp_path / f".{FILE}-abc").write_bytes(b"half")
     train(*field(), folder=tmp_path)

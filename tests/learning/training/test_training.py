@@ -141,6 +141,13 @@ def test_time_may_end_the_training_before_the_steps_do(field):
     assert 0.2 <= history.seconds < 10
 
 
+def test_the_last_step_is_validated_also_where_time_ends_it(field):
+    history = train(*field(0.2, steps=10**6, seconds=0.2, validation=0.2, validate_every=10**6))
+    assert history.stopped == "seconds"
+    assert np.isfinite(history.validation[-1])
+    assert np.isnan(history.validation[:-1]).all()
+
+
 def test_progress_is_told_after_every_step(field):
     told = []
     history = train(*field(), progress=lambda *news: told.append(news))

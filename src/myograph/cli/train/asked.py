@@ -20,6 +20,10 @@ RECORD, TRAINING = "train.json", "training"
 """In the folder of a training: what is trained there, and the folder of its steps."""
 
 
+JUDGED = {"position", "von_mises", "cauchy_stress"}
+"""Fields whose errors are told."""
+
+
 class TrainFile(Model):
     """Settings of a training as a whole.
 
@@ -59,7 +63,7 @@ class TrainFile(Model):
     sensor_seed: int = Field(default=SENSOR_SEED, ge=0)
     convention: Convention = "initial"
     known: tuple[str, ...] = ("position",)
-    asked: tuple[str, ...] = ("position",)
+    asked: tuple[str, ...] = Field(default=("position",), min_length=1)
     options: dict[str, Any] = Field(default_factory=dict)
     training: dict[str, Any] = Field(default_factory=dict)
     calibration: float = Field(default=0.15, ge=0, lt=1)
@@ -74,6 +78,8 @@ def read_train_file(path: Path, store: Path | None, device: str | None) -> tuple
     asked = read_toml(path, TrainFile)
     if asked.muscle not in MUSCLES:
         raise InputError(f"{path}: muscle: expected one of {', '.join(MUSCLES)}, got '{asked.muscle}'")
+    if asked.options.get("surface_only"):
+        raise InputError(f"{path}: surface_only: a saved model answers at all nodes; leave it out, or fit from Python")
     if device is not None:
         asked = asked.model_copy(update={"training": {**asked.training, "device": device}})
     found = store or (path.parent / asked.store if asked.store else None)
@@ -88,7 +94,10 @@ def make_sampler(asked: TrainFile, cases: MuscleCases) -> PairSampler:
         sensors = random_sensors(cases.nodes, asked.sensors, asked.sensor_seed)
     else:
         sensors = listed_sensors(asked.sensors, cases.nodes)
-    return PairSampler(cases, sensors, asked.convention, asked.known, asked.asked)
+    sampler = PairSampler(cases, sensors, asked.convention, asked.known, asked.asked)
+    if not JUDGED & set(asked.asked):
+        raise InputError(f"asked: expected one of {', '.join(sorted(JUDGED))} among them: nothing else is judged")
+    return sampler
 
 
 def check_folder(out: Path, asked: TrainFile, cases: MuscleCases) -> None:
@@ -111,9 +120,14 @@ def check_folder(out: Path, asked: TrainFile, cases: MuscleCases) -> None:
 
 
 def claim_folder(out: Path, asked: TrainFile, cases: MuscleCases) -> None:
-    """Write down what is trained there, unless it is written already."""
+    """Write down what is trained there, unless it is written already.
+
+    Raises InputError where something else is: of two that began at once, whoever was first, when it claims again.
+    """
     path = out / RECORD
-    if not path.exists():
+    if path.exists():
+        check_folder(out, asked, cases)
+    else:
         write_whole(path, lambda file: file.write(json.dumps(_record(asked, cases), indent=2).encode()))
 
 

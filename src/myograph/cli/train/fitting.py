@@ -46,6 +46,15 @@ def asked_learner(asked: TrainFile, cases: MuscleCases, split: Split, out: Path,
     return learner.learner
 
 
+def taught_split(learner: Learner, cases: MuscleCases, split: Split) -> Split:
+    """The split without the training cases that calibrate, and do not teach."""
+    from myograph.learning.trust.calibrated import CalibratedLearner, hold_out
+
+    if not isinstance(learner, CalibratedLearner):
+        return split
+    return hold_out(cases, split, learner.share, learner.seed)[0]
+
+
 def fit(
     learner: Learner, sampler: PairSampler, split: Split, out: Path, claim: Callable[[], None]
 ) -> tuple[Predictor, float]:

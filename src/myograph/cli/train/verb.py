@@ -15,7 +15,7 @@ import typer
 
 from myograph.cli.options import Json, print_json
 from myograph.cli.train.asked import TrainFile, check_folder, claim_folder, make_sampler, read_train_file
-from myograph.cli.train.fitting import MODEL, asked_learner, fit, in_first_process, save
+from myograph.cli.train.fitting import MODEL, asked_learner, fit, in_first_process, save, taught_split
 from myograph.cli.train.judging import judge, table
 from myograph.ensemble.pairs.predictor import Predictor
 from myograph.ensemble.pairs.protocols import split_pairs
@@ -82,9 +82,9 @@ def run_training(asked: TrainFile, store: Path, out: Path, source: str) -> Train
 
     training = Training(
         cases=cases,
-        split=split,
+        split=taught_split(learner, cases, split),
         split_seed=asked.split_seed,
-        seed=int(asked.training.get("seed", 0)),
+        seed=int(asked.training.get("seed", asked.options.get("seed", 0))),
         command=shlex.join(["myograph", *sys.argv[1:]]),
         seconds=seconds,
         metrics={protocol: row.known_figures() for protocol, row in errors.items()},

@@ -9,7 +9,7 @@ Source: Lu et al. 2021 (unstacked DeepONet, several outputs by splitting the bra
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal, final
+from typing import Annotated, Any, Literal, final
 
 import numpy as np
 import torch
@@ -31,6 +31,8 @@ DRIVES: dict[Drive, tuple[str, ...]] = {
 }
 """What drives, as inputs of the module."""
 
+Width = Annotated[int, Field(ge=1)]
+
 
 class DeepONetConfig(Model):
     """Settings of the network.
@@ -47,8 +49,8 @@ class DeepONetConfig(Model):
 
     drive: Drive = "activation"
     terms: int = Field(default=48, ge=1)
-    branch: tuple[int, ...] = (128, 128, 128)
-    trunk: tuple[int, ...] = (96, 96, 96)
+    branch: tuple[Width, ...] = (128, 128, 128)
+    trunk: tuple[Width, ...] = (96, 96, 96)
 
 
 class DeepONetShape(DeepONetConfig):

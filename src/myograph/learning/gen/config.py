@@ -5,7 +5,7 @@ weights, learned many times faster; `NetworkConfig.improved()`, the most exact. 
 thesis's listings back, to show what each costs.
 """
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -50,6 +50,10 @@ class Traps(Model):
     no_query: bool = False
     millimetres: bool = False
     triangle_edges: bool = False
+
+
+Functions = Annotated[tuple[Annotated[tuple[Feature, ...], Field(min_length=1)], ...], Field(min_length=1)]
+"""The features of each input or output function."""
 
 
 class NetworkConfig(Model):
@@ -103,10 +107,10 @@ class NetworkConfig(Model):
 
     nodes_per_axis: int = Field(default=2, ge=2)
     latent: int = Field(default=32, ge=1)
-    hidden: tuple[int, ...] = (32, 32)
+    hidden: tuple[Annotated[int, Field(ge=1)], ...] = (32, 32)
     rounds: int | None = Field(default=None, ge=1)
-    inputs: tuple[tuple[Feature, ...], ...] = (("displacement",),)
-    outputs: tuple[tuple[Feature, ...], ...] = (("displacement",),)
+    inputs: Functions = (("displacement",),)
+    outputs: Functions = (("displacement",),)
     aggregation: Literal["sum", "mean"] = "mean"
     processor: Processor = "gcn"
     representer: Literal["dense", "nearest", "barycentric"] = "dense"
@@ -140,7 +144,7 @@ class NetworkConfig(Model):
     @classmethod
     def thesis(cls, nodes_per_axis: int = 2) -> "NetworkConfig":
         """Encoder 6-32-32-32, decoder 35-32-32-3, GCN 35-32, coordinates in and out: 5,860 parameters."""
-        coordinates: tuple[tuple[Feature, ...], ...] = (("coordinates",),)
+        coordinates: Functions = (("coordinates",),)
         return cls(nodes_per_axis=nodes_per_axis, inputs=coordinates, outputs=coordinates, aggregation="sum")
 
     @classmethod

@@ -55,7 +55,7 @@ class ModesConfig(Model):
     sensing: Literal["surface", "ridge", "surface_and_ridge"] = "surface"
     sensor_noise: float = Field(default=0.1, gt=0)
     activation_noise: float = Field(default=0.01, gt=0)
-    seed: int = Field(default=0, ge=0)
+    seed: int = Field(default=0, ge=0, lt=2**63)
 
     @model_validator(mode="after")
     def _uses_what_it_reads(self) -> "ModesConfig":

@@ -49,6 +49,9 @@ class ModesLearner:
         if len(taught) < LEAST_CASES:
             raise InputError(f"{self.name}: expected at least {LEAST_CASES} training cases, got {len(taught)}")
         values = {name: _values(cases, name, taught) for name in self._names(sampler)}
+        foreign = sorted(set(self.config.modes_of) - set(values))
+        if foreign:
+            raise InputError(f"modes_of: expected some of {', '.join(values)}, got {', '.join(foreign)}")
         pods = {name: proper_modes(array.reshape(len(taught), -1), self._most(name)) for name, array in values.items()}
         own = MUSCLES.index(cases.muscle)
         along = self._coordinate(cases, taught, pods["position"])

@@ -26,7 +26,7 @@ from myograph.learning.training.history import COLUMNS
 from myograph.learning.training.run import Run
 
 FILE = "checkpoint.safetensors"
-SCHEMA = 1
+SCHEMA = 2
 FREE = frozenset({"checkpoint_every", "log_every", "tensorboard", "histogram_every", "device", "compile"})
 """Settings that may change on the way: they change nothing that is computed, or only the last digits."""
 
@@ -75,7 +75,8 @@ def _check_free(folder: Path) -> None:
 def write_checkpoint(folder: Path, run: Run, about: str) -> None:
     """Store the training as it is now."""
     tensors = {name: value.detach().cpu().contiguous().clone() for name, value in _tensors(run).items()}
-    state = {**_identity(run, about), "best": _numbers(run), "scaler": run.scaler_state(), "sha256": _sha256(tensors)}
+    state = {**_identity(run, about), "best": _numbers(run), "scaler": run.scaler_state()}
+    state["sha256"] = _sha256(state, tensors)
     data = save(tensors, metadata={"state": json.dumps(state)})
     write_whole(folder / FILE, lambda file: file.write(data))
 
@@ -137,7 +138,7 @@ def _read(path: Path) -> tuple[dict[str, Any], dict[str, Tensor]]:
         with safe_open(path, framework="pt") as file:
             state, names = json.loads(file.metadata()["state"]), file.keys()
             tensors = {name: file.get_tensor(name) for name in names}
-        if state["sha256"] != _sha256(tensors):
+        if state.pop("sha256") != _sha256(state, tensors):
             raise ValueError("altered bytes")
     except (OSError, SafetensorError, KeyError, TypeError, ValueError) as problem:
         raise InputError(
@@ -146,10 +147,10 @@ def _read(path: Path) -> tuple[dict[str, Any], dict[str, Tensor]]:
     return state, tensors
 
 
-def _sha256(tensors: Mapping[str, Tensor]) -> str:
-    digest = hashlib.sha256()
-    for name in sorted(tensors):
-        digest.update(name.encode() + tensors[name].numpy().tobytes())
+def _sha256(state: Mapping[str, Any], tensors: Mapping[str, Tensor]) -> str:
+    digest = hashlib.sha256(json.dumps(state, sort_keys=True).encode())
+    for name, values in sorted(tensors.items()):
+        digest.update(f"{name} {values.dtype} {tuple(values.shape)} ".encode() + values.numpy().tobytes())
     return digest.hexdigest()
 
 

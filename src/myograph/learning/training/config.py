@@ -81,7 +81,7 @@ class TrainingConfig(Model):
     validate_every: int = Field(default=100, ge=1)
     patience: int | None = Field(default=None, ge=1)
     smallest_gain: float = Field(default=1e-3, ge=0)
-    seed: int = Field(default=0, ge=0)
+    seed: int = Field(default=0, ge=0, lt=2**63)
     device: Device = "auto"
     precision: Precision = "32-true"
     compile: bool = False

@@ -71,8 +71,7 @@ class Run:
             return "steps"
         if self.config.patience is not None and self.best.waited >= self.config.patience:
             return "patience"
-        limit = self.config.seconds
-        return "seconds" if limit is not None and self.step and self.course.records[-1].elapsed >= limit else None
+        return "seconds" if self.step and self._time_is_over(self.course.records[-1].elapsed) else None
 
     def take_step(self) -> StepRecord:
         """One step of the optimiser and all that belongs to it.
@@ -88,7 +87,8 @@ class Run:
         self.trainable.after_step(number)
         if self.average is not None:
             self.average.update(number)
-        record = StepRecord(loss, rmse, rate, self._validate(number), self._elapsed())
+        elapsed = self._elapsed()
+        record = StepRecord(loss, rmse, rate, self._validate(number, elapsed), elapsed)
         self.course.records.append(record)
         return record
 
@@ -129,9 +129,10 @@ class Run:
         assert isinstance(mean, Tensor)
         return float(mean[0]), float(mean[1])
 
-    def _validate(self, number: int) -> float:
+    def _validate(self, number: int, elapsed: float) -> float:
         """Mean error on held-out pairs [mm], where it is due; NaN otherwise."""
-        if number % self.config.validate_every and number < self.config.steps:
+        last = number >= self.config.steps or self._time_is_over(elapsed)
+        if number % self.config.validate_every and not last:
             return math.nan
         error = self._held_out_error()
         if error is None and self.config.patience is not None:
@@ -153,6 +154,9 @@ class Run:
         if error is not None:
             self.best.take(error, self.module, self.config.smallest_gain)
         return error
+
+    def _time_is_over(self, elapsed: float) -> bool:
+        return self.config.seconds is not None and elapsed >= self.config.seconds
 
     def _share_done(self, number: int) -> float:
         """Share of the steps, or of the time where that is further on."""
