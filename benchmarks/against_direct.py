@@ -1,12 +1,14 @@
 """Every method taught on tables and held against direct finite elements; and what share of the truth intervals hold.
 
     python benchmarks/against_direct.py STORE --truth STORE [--methods NAME ...] [--seeds 3] [--pairs 256]
-                                        [--seconds 90] [--steps 4000] [--halves 20] [--json]
+                                        [--seconds 90] [--steps 4000] [--halves 20] [--convention NAME] [--json]
 
 Taught by the protocol 'strict' on STORE, with nine random sensors; judged by all three protocols on pairs of the truth,
 whose bodies must be those of STORE and whose factorial cases come in the same order. A seed is that of the split, of
 the training and of the pairs drawn; figures are means over the seeds, the largest error that of all. `--seconds` ends
 the training of a network, so that its errors depend on the machine.
+Points are named by S, as in the thesis, for graph element networks, and by X for all others, unless `--convention` says
+something else: an affine map and a spline are far more exact from S, which is the muscle already bent.
 Neural modes stand in three rows, by what they are told. For their intervals, the cases of the truth off the grid are
 halved at random, `--halves` times a seed: one half says how far the angle of the networks is off and how wide
 intervals must be, and the share that they hold is counted on the other half.
@@ -27,7 +29,7 @@ from threadpoolctl import threadpool_limits
 from myograph.ensemble.muscle_cases import MuscleCases
 from myograph.ensemble.pairs.predictor import Predictor
 from myograph.ensemble.pairs.protocols import FACTORIAL, OFF_GRID, PROTOCOLS, split_pairs
-from myograph.ensemble.pairs.question import Batch
+from myograph.ensemble.pairs.question import CONVENTIONS, Batch, Convention
 from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
 from myograph.ensemble.store.reading import read_muscle
 from myograph.errors import InputError
@@ -62,15 +64,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
     held: dict[str, list[float]] = {}
     for method in asked.methods:
         for seed in range(asked.seeds):
-            predictor = _fitted(method, cases, seed, asked)
+            predictor, judged = _fitted(method, cases, seed, asked), _sampler(method, truth, asked.convention)
             for told in (WHOLE, *WAYS) if method == MODES else (WHOLE,):
                 row = {WHOLE: "both", "activation": "activations"}.get(told, told)
-                errors = _errors(predictor, _sampler(method, truth), told, seed, asked.pairs)
+                errors = _errors(predictor, judged, told, seed, asked.pairs)
                 for protocol, figures in errors.items():
                     rows = found.setdefault(f"{method}, {row}" if method == MODES else method, {})
                     rows.setdefault(protocol, []).append(figures)
             if method == MODES:
-                for way, shares in _coverage(predictor, _sampler(method, truth), seed, asked.halves).items():
+                for way, shares in _coverage(predictor, judged, seed, asked.halves).items():
                     held.setdefault(way, []).extend(shares)
     if asked.json:
         print(json.dumps({"methods": found, "coverage": held}))
@@ -88,6 +90,7 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     for name, default in (("seeds", 3), ("pairs", 256), ("steps", 4000), ("halves", 20)):
         parser.add_argument(f"--{name}", type=int, default=default)
     parser.add_argument("--seconds", type=float, default=90.0)
+    parser.add_argument("--convention", choices=CONVENTIONS)
     parser.add_argument("--json", action="store_true")
     return parser.parse_args(arguments)
 
@@ -101,21 +104,23 @@ def _check(cases: MuscleCases, truth: MuscleCases) -> None:
         raise InputError("truth: expected the factorial cases of the store that teaches, in their order, got others")
 
 
-def _sampler(method: str, cases: MuscleCases) -> PairSampler:
+def _sampler(method: str, cases: MuscleCases, convention: Convention | None) -> PairSampler:
     """Graph element networks answer positions and name points as the thesis does."""
     sensors = random_sensors(cases.nodes)
-    return PairSampler(cases, sensors) if method in NETWORKS else PairSampler(cases, sensors, "material", asked=ASKED)
+    if method in NETWORKS:
+        return PairSampler(cases, sensors, convention or "initial")
+    return PairSampler(cases, sensors, convention or "material", asked=ASKED)
 
 
 def _fitted(method: str, cases: MuscleCases, seed: int, asked: argparse.Namespace) -> Predictor:
-    split = split_pairs(cases, "strict", seed)
+    split, sampler = split_pairs(cases, "strict", seed), _sampler(method, cases, asked.convention)
     if method in NETWORKS:
         training = TrainingConfig(steps=asked.steps, seconds=asked.seconds, queries=128, seed=seed)
-        return GenLearner(NETWORKS[method], training, method).fit(_sampler(method, cases), split)
+        return GenLearner(NETWORKS[method], training, method).fit(sampler, split)
     if method == MODES:
         settings = ModesConfig(reads="both", stress="von_mises", modes=20, seed=seed)
-        return ModesLearner(settings).fit(_sampler(method, cases), split)
-    return learner_of(method, seed, asked.seconds).fit(_sampler(method, cases), split)
+        return ModesLearner(settings).fit(sampler, split)
+    return learner_of(method, seed, asked.seconds).fit(sampler, split)
 
 
 def _errors(predictor: Predictor, sampler: PairSampler, told: str, seed: int, most: int) -> dict[str, Figures]:

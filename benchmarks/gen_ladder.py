@@ -47,6 +47,7 @@ ROWS: dict[str, NetworkConfig] = {
     "physics": NetworkConfig(physics=Physics(volume=0.3, clamped=0.003)),
     "stress heads": NetworkConfig(outputs=(("displacement",), ("von_mises",))),
     "nearest, 4 nodes": NetworkConfig(representer="nearest", nearest=4),
+    "barycentric": NetworkConfig(representer="barycentric"),
     "context": NetworkConfig(context=True),
     "modulated": NetworkConfig(modulated=True),
     "wide": NetworkConfig(latent=64, hidden=(64, 64)),

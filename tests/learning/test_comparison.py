@@ -45,12 +45,12 @@ def test_json_is_one_object_of_rows():
     assert done.exit_code == 0, done.output
     told = json.loads(done.stdout)
     assert list(told) == ["affine"]
-    assert list(told["affine"]) == ["parameters", "train_s", "predict_ms", "mean_mm"]
+    assert list(told["affine"]) == ["parameters", "stored", "train_s", "predict_ms", "mean_mm"]
 
 
 def test_people_read_a_table():
     lines = CliRunner().invoke(app, ["--method", "affine", "--method", "do_nothing"]).stdout.splitlines()
-    assert lines[0].split() == ["parameters", "train_s", "predict_ms", "mean_mm"]
+    assert lines[0].split() == ["parameters", "stored", "train_s", "predict_ms", "mean_mm"]
     assert [line.split()[0] for line in lines[1:3]] == ["affine", "do_nothing"]
 
 

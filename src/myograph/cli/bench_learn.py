@@ -32,8 +32,10 @@ def learn(
     if json:
         print_json({name: asdict(row) for name, row in found.rows.items()})
         return
-    typer.echo(f"{'':20}{'parameters':>12}{'train_s':>10}{'predict_ms':>12}{'mean_mm':>10}")
+    typer.echo(f"{'':20}{'parameters':>12}{'stored':>12}{'train_s':>10}{'predict_ms':>12}{'mean_mm':>10}")
     for name, row in found.rows.items():
-        typer.echo(f"{name:20}{row.parameters:12d}{row.train_s:10.1f}{row.predict_ms:12.3f}{row.mean_mm:10.3f}")
+        typer.echo(
+            f"{name:20}{row.parameters:12d}{row.stored:12d}{row.train_s:10.1f}{row.predict_ms:12.3f}{row.mean_mm:10.3f}"
+        )
     for name, reason in found.left_out.items():
         typer.echo(f"{name}: left out: {reason}")

@@ -36,7 +36,9 @@ class Row:
     Parameters
     ----------
     parameters
-        Number of learned numbers.
+        Number of trained numbers.
+    stored
+        Number of all numbers that the method keeps.
     train_s
         Time to learn [s].
     predict_ms
@@ -46,6 +48,7 @@ class Row:
     """
 
     parameters: int
+    stored: int
     train_s: float
     predict_ms: float
     mean_mm: float
@@ -91,8 +94,10 @@ def _row(name: str, sampler: PairSampler, split: Split, steps: int) -> Row:
     started = time.perf_counter()
     predictor = learner.fit(sampler, split)
     train_s = time.perf_counter() - started
-    parameters = int(getattr(predictor, "parameters", 0))
-    return Row(parameters, train_s, _milliseconds(predictor, sampler, split), _mean_error(predictor, sampler, split))
+    parameters, stored = (int(getattr(predictor, name, 0)) for name in ("parameters", "stored"))
+    return Row(
+        parameters, stored, train_s, _milliseconds(predictor, sampler, split), _mean_error(predictor, sampler, split)
+    )
 
 
 def _milliseconds(predictor: Predictor, sampler: PairSampler, split: Split) -> float:

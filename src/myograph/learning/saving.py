@@ -37,7 +37,7 @@ from myograph.learning.model_card import card
 from myograph.learning.onnx_export import Exported, export
 from myograph.learning.saveable import Saveable
 from myograph.learning.taught import installed, model_body, trained_range
-from myograph.learning.torch_predictor import TorchPredictor
+from myograph.learning.torch_predictor import TorchPredictor, trained_numbers
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ def _told(model: Saveable, training: Training, trained: TrainedRange, exported: 
         signature=model.signature,
         fields={name: FIELDS[name].unit for name in model.signature.fields},
         config=model.config.model_dump(mode="json"),
-        parameters=sum(parameter.numel() for parameter in model.module.parameters()),
+        parameters=trained_numbers(model.module),
         opset=exported.opset,
         parity=exported.parity,
         metrics={protocol: dict(figures) for protocol, figures in training.metrics.items()},

@@ -16,6 +16,11 @@ from myograph.inference.question import check_question
 from myograph.inference.signature import Signature
 
 
+def trained_numbers(module: nn.Module) -> int:
+    """How many numbers of a module a training changes; modes and means that are merely kept are none."""
+    return sum(parameter.numel() for parameter in module.parameters() if parameter.requires_grad)
+
+
 @dataclass(frozen=True)
 class TorchPredictor:
     """A `myograph.ensemble.pairs.predictor.Predictor` and a `myograph.learning.saveable.Saveable`.
@@ -57,7 +62,12 @@ class TorchPredictor:
     @property
     def parameters(self) -> int:
         """Number of trained numbers."""
-        return sum(parameter.numel() for parameter in self.module.parameters())
+        return trained_numbers(self.module)
+
+    @property
+    def stored(self) -> int:
+        """Number of all numbers that it keeps, trained or not."""
+        return sum(values.numel() for values in self.module.state_dict().values())
 
     def predict(self, question: Question) -> Answer:
         """Answer, in evaluation mode and without gradients.

@@ -79,7 +79,8 @@ def test_method_and_result_keep_the_contracts(fitted):
     assert isinstance(GappyPod(), Learner)
     assert isinstance(fitted, Predictor)
     assert isinstance(fitted, Saveable)
-    assert fitted.parameters == 60 * 3 * (1 + 5) + 5
+    assert fitted.stored == 60 * 3 * (1 + 5) + 5
+    assert fitted.parameters == 0
 
 
 def test_nodes_of_another_body_are_an_input_error(spanned, fitted):
