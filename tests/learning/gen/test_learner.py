@@ -1,6 +1,7 @@
 """The method as a whole: it learns, it repeats itself, it can be exported and saved, it refuses what it cannot do."""
 
 from dataclasses import replace
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from myograph.ensemble.pairs.predictor import Learner, Predictor
 from myograph.ensemble.pairs.protocols import PairSet, Split
 from myograph.ensemble.pairs.sampler import PairSampler
 from myograph.errors import InputError
-from myograph.learning.gen.config import NetworkConfig
+from myograph.learning.gen.config import NetworkConfig, Processor
 from myograph.learning.gen.learner import GenLearner, reading
 from myograph.learning.gen.rebuild import rebuild
 from myograph.learning.onnx_export import export
@@ -66,11 +67,20 @@ def test_every_kind_answers_the_fields_of_its_outputs_with_numbers(kind, briefly
         assert np.isfinite(values).all()
 
 
-@pytest.mark.exhaustive
 def test_every_kind_is_the_same_in_onnx(kind, briefly_trained, stressed, strict):
     """`export` itself compares the answers of onnxruntime with those of torch."""
     pytest.importorskip("onnxscript")
     assert export(briefly_trained.predictor, stressed.cases, strict).parity < 1e-5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("processor", sorted(set(get_args(Processor)) - {kind.processor for kind in KINDS.values()}))
+def test_every_processor_is_the_same_in_onnx(processor, sampler, strict):
+    pytest.importorskip("onnxscript")
+    if processor.endswith("Conv"):
+        pytest.importorskip("torch_geometric")
+    trained = GenLearner(NetworkConfig(processor=processor), FEW).fit(sampler, strict)
+    assert export(trained, sampler.cases, strict).parity < 1e-5
 
 
 def test_every_kind_is_rebuilt_from_its_configuration_and_weights(kind, briefly_trained, stressed, strict):
