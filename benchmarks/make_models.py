@@ -5,7 +5,7 @@
     --arm       arm/MUSCLE      all five muscles, with one network for the elbow's angle
     --biceps    biceps          one muscle, finer; gen-biceps: a graph element network in the convention of the thesis
     --truth     truth/biceps.npz        cases that the biceps is held against
-    --arm-truth truth/arm/MUSCLE.npz    likewise the arm
+    --arm-truth truth/arm/MUSCLE.npz    likewise the arm; with --arm, its cases that are not shipped widen intervals
 
 Any of them may be left out: what lies there stays. Models are taught by the protocol 'strict' and calibrated on 15 % of
 the training cases, which teach nothing. The truth of the biceps should be of finite elements (simulator 'direct'), with
@@ -17,7 +17,7 @@ of asking it: by activations, by sensors, by both.
 
 import argparse
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -26,6 +26,7 @@ import torch
 
 from myograph.case import MUSCLES
 from myograph.ensemble.muscle_cases import MuscleCases
+from myograph.ensemble.pairs.predictor import Predictor
 from myograph.ensemble.pairs.protocols import FACTORIAL, OFF_GRID, PROTOCOLS, PairSet, Split, split_pairs
 from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
 from myograph.ensemble.store.reading import read_muscle
@@ -69,7 +70,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     asked = parser.parse_args(arguments)
     torch.set_num_threads(1)
     if asked.arm:
-        make_arm(asked.arm, asked.out / "arm")
+        make_arm(asked.arm, asked.arm_truth, asked.out / "arm")
     if asked.biceps:
         make_biceps(asked.biceps, asked.truth, asked.out / "biceps")
         if not asked.without_gen:
@@ -80,7 +81,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         make_truth(asked.arm_truth, muscle, asked.out / "truth" / "arm" / f"{muscle}.npz")
 
 
-def make_arm(store: Path, out: Path) -> None:
+def make_arm(store: Path, truth: Path | None, out: Path) -> None:
     """Five models that share one network for the elbow's angle."""
     started = time.perf_counter()
     samplers = {muscle: _sampler(store, muscle, SHOWN) for muscle in MUSCLES}
@@ -89,6 +90,8 @@ def make_arm(store: Path, out: Path) -> None:
     found = fit_arm(ModesLearner(ARM), samplers, rest)
     for muscle, model in found.items():
         calibrated = calibrate(model, samplers[muscle], rest, held_out)
+        if truth is not None:
+            calibrated = widened(calibrated, _sampler(truth, muscle, SHOWN))
         _save(calibrated, samplers[muscle], rest, (time.perf_counter() - started) / len(MUSCLES), out / muscle)
 
 
@@ -137,9 +140,27 @@ def _against_truth(calibrated: CalibratedPredictor, sampler: PairSampler) -> Cal
     assert isinstance(model.module, ModesModule)
     chosen = _halves(cases)[0]
     measure_angle(model.module, cases, chosen)
-    split = Split("off_grid", PairSet(chosen, chosen), np.zeros((0, 2), dtype=np.int64))
-    found = calibrate(model, sampler, split, chosen)
+    found = _calibrated_on(model, sampler, chosen)
     return replace(calibrated, factors=found.factors, factors_from=found.factors_from)
+
+
+def widened(calibrated: CalibratedPredictor, sampler: PairSampler) -> CalibratedPredictor:
+    """With the factors that the truth needs, of cases off the grid that are not shipped, where these are larger."""
+    found = _calibrated_on(calibrated.predictor, sampler, sampler.cases.named(OFF_GRID)[FEW:])
+    return replace(
+        calibrated,
+        factors=_larger(calibrated.factors, found.factors),
+        factors_from={way: _larger(own, found.factors_from[way]) for way, own in calibrated.factors_from.items()},
+    )
+
+
+def _calibrated_on(model: Predictor, sampler: PairSampler, chosen: np.ndarray) -> CalibratedPredictor:
+    split = Split("off_grid", PairSet(chosen, chosen), np.zeros((0, 2), dtype=np.int64))
+    return calibrate(model, sampler, split, chosen)
+
+
+def _larger(one: Mapping[str, float], other: Mapping[str, float]) -> dict[str, float]:
+    return {name: max(factor, other[name]) for name, factor in one.items()}
 
 
 def _sampler(store: Path, muscle: str, asked: tuple[str, ...] = ASKED) -> PairSampler:
@@ -148,7 +169,7 @@ def _sampler(store: Path, muscle: str, asked: tuple[str, ...] = ASKED) -> PairSa
 
 
 def _save(model: CalibratedPredictor, sampler: PairSampler, taught: Split, seconds: float, out: Path) -> None:
-    what = "--arm STORE" if out.parent.name == "arm" else COMMANDS[out.name]
+    what = "--arm STORE --arm-truth STORE" if out.parent.name == "arm" else COMMANDS[out.name]
     metrics = {}
     for protocol in PROTOCOLS:
         test = split_pairs(sampler.cases, protocol).test
