@@ -3,7 +3,7 @@ r"""Proper orthogonal decomposition (POD): a field of many cases by its mean and
 u(case) = mean + sum_k c_k(case) φ_k + rest, with orthonormal φ_k that leave the smallest rest (squares over all cases).
 From the Gram matrix of the cases, G = Y Yᵀ = U diag(s²) Uᵀ for centred Y: φ = Yᵀ u / s, c = s u.
 Convention: the modes are those of plain sums over nodes, not of integrals over the body.
-Trap: s comes from the root of an eigenvalue, so that modes below `NOISE` of the largest are rounding: they are left out.
+Trap: s comes from the root of an eigenvalue, so that modes below `NOISE` of the largest are left out.
 Source: Sirovich 1987 (method of snapshots).
 """
 
