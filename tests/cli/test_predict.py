@@ -162,6 +162,7 @@ MISTAKES = {
     ("--activation", "bicep=1"): "unknown muscle 'bicep'",
     ("--activation", "biceps=1,biceps=0.5"): "expected every muscle once",
     ("--activations", "load.csv", "--out", "load.csv"): "expected another file than the one that is read",
+    ("--activation", "0,0,1,0,0", "--sensor-noise", "0.1"): "expected --sensors beside it",
     ("--activation", "0,0,1,0,0", "--load", "nan"): "expected newtons",
     ("--activation", "0,0,1,0,0", "--out", "a.xlsx"): r"ends in .csv, .npz, .vtkhdf",
     ("nothing", "--activation", "0,0,1,0,0"): "nothing: expected the folder of a saved model",

@@ -166,7 +166,11 @@ def test_sensors_may_be_listed(place, monkeypatch):
         (GEN.replace("pairs", 'asked = ["colour"]\npairs'), (), "expected one of the fields .*got 'colour'"),
         (GEN.replace("pairs", "asked = []\npairs"), (), "asked: .*at least 1 item"),
         (GEN.replace("[training]", "hidden = [-1]\n[training]"), (), "hidden.0: .*greater than or equal to 1, got -1"),
-        (GEN.replace("[training]", "inputs = [[]]\n[training]"), (), "inputs.0: .*at least 1 item"),
+        (
+            GEN.replace("[training]", "inputs = [[]]\n[training]"),
+            (),
+            "inputs: expected features at the sensors, got none",
+        ),
         (GEN.replace("steps = 6", f"steps = 6\nseed = {10**30}"), (), "training: seed: "),
         (FEED_FORWARD + "[options]\nsurface_only = true\n", (), "surface_only: a saved model answers at all nodes"),
         (GEN, ("--device", "tpu"), "--device: expected one of auto, cpu, cuda, got 'tpu'"),

@@ -68,6 +68,8 @@ def predict(
     """Predict the deformed muscle at all nodes, and say whether the model knows such cases."""
     if out is not None:
         _check_out(out, activations, sensors)
+    if sensor_noise and sensors is None:
+        raise InputError("--sensor-noise: expected --sensors beside it, got none")
     asked = replace(_asked(activation, activations, sensors, load_n), sensor_noise=sensor_noise)
     loaded = load(find_model(model, from_sensors=sensors is not None))
     if out is not None and asked.size * loaded.body.nodes > MOST_STATES:

@@ -37,15 +37,16 @@ def test_outputs_are_named_by_their_fields():
     assert [decoder[-1].out_features for decoder in module(outputs=config.outputs).network.decoders] == [5, 6]
 
 
-@pytest.mark.parametrize("outputs", [(), ((),), (("displacement",), ("coordinates",))])
+@pytest.mark.parametrize("outputs", [(), ((),), (("von_mises",), ()), (("displacement",), ("coordinates",))])
 def test_no_outputs_or_two_of_one_field_are_an_input_error(outputs):
     with pytest.raises(InputError, match="outputs: expected features of different fields"):
         module(outputs=outputs)
 
 
-def test_no_inputs_are_an_input_error():
+@pytest.mark.parametrize("inputs", [(), ((),), (("displacement",), ())])
+def test_no_inputs_are_an_input_error(inputs):
     with pytest.raises(InputError, match="inputs: expected features at the sensors, got none"):
-        module(inputs=())
+        module(inputs=inputs)
 
 
 def test_reading_activations_without_an_input_for_them_is_an_input_error():

@@ -52,10 +52,6 @@ class Traps(Model):
     triangle_edges: bool = False
 
 
-Functions = Annotated[tuple[Annotated[tuple[Feature, ...], Field(min_length=1)], ...], Field(min_length=1)]
-"""The features of each input or output function."""
-
-
 class NetworkConfig(Model):
     """Shape of the network.
 
@@ -109,8 +105,8 @@ class NetworkConfig(Model):
     latent: int = Field(default=32, ge=1)
     hidden: tuple[Annotated[int, Field(ge=1)], ...] = (32, 32)
     rounds: int | None = Field(default=None, ge=1)
-    inputs: Functions = (("displacement",),)
-    outputs: Functions = (("displacement",),)
+    inputs: tuple[tuple[Feature, ...], ...] = (("displacement",),)
+    outputs: tuple[tuple[Feature, ...], ...] = (("displacement",),)
     aggregation: Literal["sum", "mean"] = "mean"
     processor: Processor = "gcn"
     representer: Literal["dense", "nearest", "barycentric"] = "dense"
@@ -144,7 +140,7 @@ class NetworkConfig(Model):
     @classmethod
     def thesis(cls, nodes_per_axis: int = 2) -> "NetworkConfig":
         """Encoder 6-32-32-32, decoder 35-32-32-3, GCN 35-32, coordinates in and out: 5,860 parameters."""
-        coordinates: Functions = (("coordinates",),)
+        coordinates: tuple[tuple[Feature, ...], ...] = (("coordinates",),)
         return cls(nodes_per_axis=nodes_per_axis, inputs=coordinates, outputs=coordinates, aggregation="sum")
 
     @classmethod

@@ -155,9 +155,9 @@ def output_names(config: NetworkConfig) -> tuple[str, ...]:
 def _check(config: NetworkConfig) -> None:
     answers = config.output_features
     fields = output_names(config)
-    if not fields or len(set(fields)) < len(fields):
+    if not fields or not all(config.outputs) or len(set(fields)) < len(fields):
         raise InputError(f"outputs: expected features of different fields, got {', '.join(answers) or 'none'}")
-    if not config.input_features:
+    if not config.inputs or not all(config.inputs):
         raise InputError("inputs: expected features at the sensors, got none")
     if config.reads != "sensors" and not config.activation_input:
         raise InputError(f"reads '{config.reads}': expected a network with an activation input; set activation_input")
