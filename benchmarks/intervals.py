@@ -17,11 +17,13 @@ from rich.table import Table
 
 from myograph.ensemble.muscle_cases import MuscleCases
 from myograph.ensemble.pairs.protocols import OFF_GRID
+from myograph.errors import InputError
 from myograph.inference.loaded import LoadedModel, load
 from myograph.inference.shipped import shipped_truth
 
 OTHERS = (1, 2, 4, 6, 9, 30, 400)
 NOISE_MM = (0.02, 0.1, 0.3, 1.0)
+NOISE_OF_OTHERS = 0.5
 
 
 @dataclass(frozen=True)
@@ -60,15 +62,18 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def list_rows(model: LoadedModel, cases: MuscleCases, seed: int) -> list[Row]:
     """Of the sensors of the training, exact and noisy, and of others; with activations, too, where they may be told."""
+    if not model.told.signature.takes_sensors:
+        raise InputError(f"{model.name}: expected a model that answers from sensors")
     usual = np.array(model.told.signature.sensors)
     ways = (False, True) if model.told.signature.unknown_activation else (False,)
     rows = []
     for both in ways:
         generator = np.random.default_rng(seed)
-        for count in OTHERS:
+        for count in OTHERS if model.told.signature.any_sensors else ():
             if model.told.signature.least_sensors <= count < model.body.nodes:
                 nodes = np.sort(generator.choice(model.body.nodes, count, replace=False))
-                rows.append(_row(model, cases, (f"{count} others", nodes), (0.0, both), generator))
+                for noise in (0.0, NOISE_OF_OTHERS):
+                    rows.append(_row(model, cases, (f"{count} others", nodes), (noise, both), generator))
         for noise in (0.0, *NOISE_MM):
             rows.append(_row(model, cases, ("of the training", usual), (noise, both), generator))
     return rows

@@ -28,15 +28,18 @@ def rows(monkeypatch, capsys):
 
 
 def test_the_intervals_of_the_biceps_hold_for_any_sensors_and_any_noise_that_it_is_told(rows):
-    """Of 32 cases; 90 % are promised of the sensors that calibrated, and no less of others."""
+    """90 % over all rows; a row has 32 cases, whose nodes err together: three standard errors are 16 %."""
     found = rows("biceps")
-    assert {row["noise_mm"] for row in found} == {0.0, 0.02, 0.1, 0.3, 1.0}
+    assert {row["noise_mm"] for row in found} == {0.0, 0.02, 0.1, 0.3, 0.5, 1.0}
+    for both in (False, True):
+        own = [row for row in found if row["with_activations"] == both]
+        assert sum(row["held"] for row in own) / len(own) > 0.9
     for row in found:
-        assert 0.82 < row["held"] <= 1
+        assert 0.74 < row["held"] <= 1
         assert row["inside"] > 0.9
 
 
-def test_a_network_of_fixed_sensors_promises_nothing_of_others(rows):
+def test_a_network_without_residual_promises_nothing_of_other_sensors(rows):
     for row in rows("gen-biceps"):
         known = row["sensors"] == "of the training"
         assert row["inside"] == (1.0 if known else 0.0)

@@ -2,8 +2,10 @@
 
 import csv
 import io
+import os
 import zipfile
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from myograph.inference.answers import answer_of
 from myograph.inference.arrays import read_arrays
 from myograph.inference.fitting import check_same_body
 from myograph.inference.latency import forward_milliseconds
+from myograph.inference.loaded import load
 from myograph.inference.sensor_file import read_sensors
 from myograph.inference.shipped import find_model, shipped_models, shipped_truth
 from myograph.inference.truth import read_truth, write_truth
@@ -127,6 +130,7 @@ def _changed(path, **other):
         ({"activation": np.zeros(3)}, r"activation: expected shape \(None, 5\)"),
         ({"reference": np.array(0.0)}, r"reference: expected shape \(None, 3\)"),
         ({"field_position": np.zeros((3, 40))}, r"field_position: expected shape \(3, 40, 3\)"),
+        ({"reference": np.zeros((0, 3))}, "expected cases of a body of nodes, got 3 cases of 0 nodes"),
         ({"skin": np.full((1, 4), 40)}, "skin: expected nodes from 0 to 39"),
         ({"seconds": np.zeros(2)}, r"seconds: expected shape \(\)"),
     ],
@@ -144,6 +148,10 @@ def test_a_truth_that_is_none_is_refused(tmp_path):
     (tmp_path / "none.npz").write_text("PK")
     with pytest.raises(InputError, match="not a file of plain arrays"):
         read_truth(tmp_path / "none.npz")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs devices that are files")
+def test_a_truth_that_is_a_device_is_not_read(tmp_path):
     (tmp_path / "zero.npz").symlink_to("/dev/zero")
     with pytest.raises(InputError, match="expected a plain file"):
         read_truth(tmp_path / "zero.npz")
@@ -206,6 +214,20 @@ def test_the_shipped_model_that_answers_what_is_asked_is_found(shipped, tmp_path
     assert len(shipped_truth("biceps")) == 2
     with pytest.raises(InputError, match="shipped ones are any_triceps, from_activation, from_sensors"):
         find_model("nothing")
+
+
+def test_a_folder_without_a_model_does_not_hide_a_shipped_one(shipped, tmp_path, monkeypatch):
+    save_linear(shipped / "biceps")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "biceps").mkdir()
+    assert find_model("biceps") == shipped / "biceps"
+    with pytest.raises(InputError, match="found no"):
+        load(tmp_path / "biceps")
+    (tmp_path / "biceps").rmdir()
+    save_linear(tmp_path / "biceps")
+    assert find_model("biceps") == Path("biceps")
+    with pytest.raises(InputError, match="cannot be read"):
+        find_model("x" * 5000)
 
 
 def test_models_of_an_arm_come_after_single_ones_and_have_a_truth_of_their_own_body(shipped):

@@ -105,7 +105,7 @@ def test_noise_explains_some_of_the_residual(mean):
     now = pulled_apart(mean, [4, 30], 17.0)
     allowed = replace(mean, body=replace(mean.body, low=mean.body.low - 20, high=mean.body.high + 20))
     assert allowed.predict_sensors([4, 30], now).inside.tolist() == [False]
-    needed = np.sqrt(8.5**2 - 8.0**2) / np.sqrt(13.2767 / 2)  # 99 % of chi-square with four degrees of freedom
+    needed = np.sqrt(8.5**2 - 8.0**2) / np.sqrt(16.8119 / 2)  # 99 % of chi-square with six degrees of freedom
     for noise, inside in ((0.99 * needed, False), (1.01 * needed, True)):
         assert allowed.predict_sensors([4, 30], now, sensor_noise=noise).inside.tolist() == [inside]
 

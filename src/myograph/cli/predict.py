@@ -24,7 +24,7 @@ from myograph.inference.shipped import find_model
 
 AT_ONCE = 64
 """Cases that are answered together: memory holds these, and what is to be written."""
-MOST_STATES = 10**7
+MOST_STATES = 5 * 10**6
 """Nodes times cases of one file."""
 
 
@@ -75,11 +75,12 @@ def predict(
     if out is not None and asked.size * loaded.body.nodes > MOST_STATES:
         most = MOST_STATES // loaded.body.nodes
         raise InputError(f"{out}: expected at most {most} cases in one file, got {asked.size}; ask in several")
-    started, cases, kept = time.perf_counter(), [], []
+    cases, kept, milliseconds, started = [], [], 0.0, time.perf_counter()
     for answer in _answers(loaded, asked):
+        milliseconds += 1000 * (time.perf_counter() - started)
         cases += describe_answer(loaded, answer)
         kept += [answer] if out is not None else []
-    milliseconds = 1000 * (time.perf_counter() - started)
+        started = time.perf_counter()
     if out is not None:
         _write(out, loaded, asked, joined(kept))
     if json:

@@ -95,7 +95,7 @@ def sensor_nodes(sensors: Sensors, body: ModelBody) -> Int[np.ndarray, " sensors
     A place belongs to the nearest node where that is nearer than half the way from a node to its next one.
     """
     given = np.asarray(sensors)
-    if given.ndim == 2 and given.shape[1] == 3:
+    if given.ndim == 2 and given.shape[1] == 3 and len(given):
         nodes = _nearest(given.astype(np.float64), body)
     elif given.ndim == 1 and given.dtype.kind in "iu":
         nodes = given.astype(np.int64)

@@ -144,7 +144,7 @@ def load(folder: Path | str, threads: int = 1) -> LoadedModel:
 
     Raises InputError where it is missing, truncated, altered, of another schema, or does not fit together.
     """
-    folder = find_model(str(folder))
+    folder = find_model(folder) if isinstance(folder, str) else folder
     told = read_model_file(folder)
     body = body_of(read_file(folder, BODY, told.files[BODY]), str(folder / BODY))
     read_file(folder, CARD, told.files[CARD])

@@ -194,7 +194,11 @@ def read_file(folder: Path, name: str, record: FileRecord) -> bytes:
 
 
 def _unpacked(folder: Path, path: Path) -> dict[str, Any]:
-    if not path.exists():
+    try:
+        there = path.exists()
+    except OSError as problem:
+        raise InputError(f"{path}: cannot be read: {problem.strerror}") from None
+    if not there:
         raise InputError(f"{folder}: expected the folder of a saved model, found no {MODEL_FILE} there")
     data = read_bounded(path, MOST_BYTES[MODEL_FILE])
     try:

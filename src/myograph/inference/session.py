@@ -1,5 +1,6 @@
 """The network of a saved model in onnxruntime."""
 
+import re
 from collections.abc import Mapping
 
 import numpy as np
@@ -8,8 +9,8 @@ import onnxruntime
 from myograph.errors import InputError
 from myograph.inference.signature import Signature
 
-_OUTSIDE = b"location"
-"""The key by which a tensor says that its numbers lie in another file; how its length is written may differ."""
+_OUTSIDE = re.compile(rb"(?:\x0a|\x8a\x80*\x00)(?:\x08|\x88\x80*\x00)location")
+"""The key by which a tensor says that its numbers lie in another file, its tag and length in any writing of numbers."""
 
 
 def open_session(data: bytes, signature: Signature, threads: int, source: str) -> onnxruntime.InferenceSession:
@@ -17,7 +18,7 @@ def open_session(data: bytes, signature: Signature, threads: int, source: str) -
 
     Raises InputError for bytes that are no network, or one with other inputs and outputs than the signature's.
     """
-    if _OUTSIDE in data:
+    if _OUTSIDE.search(data):
         raise InputError(f"{source}: expected a network with its weights inside, got one that names other files")
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = threads

@@ -45,12 +45,17 @@ def find_model(named: str | None, from_sensors: bool = False) -> Path:
         if not fitting:
             raise InputError(_NONE)
         return min(fitting, key=lambda folder: _ORDER.index(told[folder].muscle))
-    if Path(named).exists() or named not in shipped:
-        if not Path(named).exists():
-            known = f"; the shipped ones are {', '.join(shipped)}" if shipped else ""
-            raise InputError(f"{named}: expected the folder of a saved model, found nothing there{known}")
-        return Path(named)
-    return shipped[named]
+    place = Path(named)
+    try:
+        saved, there = (place / MODEL_FILE).is_file(), place.exists()
+    except OSError as problem:
+        raise InputError(f"{named}: cannot be read: {problem.strerror}") from None
+    if not saved and named in shipped:
+        return shipped[named]
+    if not there:
+        known = f"; the shipped ones are {', '.join(shipped)}" if shipped else ""
+        raise InputError(f"{named}: expected the folder of a saved model, found nothing there{known}")
+    return place
 
 
 def shipped_truth(muscle: str, nodes: int | None = None) -> MuscleCases:

@@ -101,6 +101,8 @@ def _check(arrays: dict[str, np.ndarray], fields: dict[str, np.ndarray], source:
     check_array(arrays["activation"], (None, len(MUSCLES)), "f", f"{source}: activation")
     check_array(arrays["reference"], (None, 3), "f", f"{source}: reference")
     cases, nodes = len(arrays["activation"]), len(arrays["reference"])
+    if not cases or not nodes:
+        raise InputError(f"{source}: expected cases of a body of nodes, got {cases} cases of {nodes} nodes")
     words = dict.fromkeys(("muscle", *_WORDS), ((), "U"))
     shapes: dict[str, tuple[tuple[int | None, ...], str]] = {
         **words,

@@ -59,11 +59,11 @@ def inside(
 
 
 def _residual_99(question: Question, sensor_noise: float) -> float:
-    """Residual [mm] that noise alone stays below in 99 of 100 cases, two numbers of its coordinates being explained."""
+    """Residual [mm] that noise alone stays below in 99 of 100 cases, however little of it the answer follows."""
     sensors = len(question.sensor_nodes)
     if not sensors or not sensor_noise:
         return 0.0
-    return sensor_noise * float(np.sqrt(chdtri(3 * sensors - 2, 0.01) / sensors))
+    return sensor_noise * float(np.sqrt(chdtri(3 * sensors, 0.01) / sensors))
 
 
 def _within(values: np.ndarray, low: object, high: object, slack: object) -> np.ndarray:

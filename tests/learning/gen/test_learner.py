@@ -10,7 +10,7 @@ import torch
 from myograph.ensemble.muscle_cases import cases_in_memory
 from myograph.ensemble.pairs.predictor import Learner, Predictor
 from myograph.ensemble.pairs.protocols import PairSet, Split
-from myograph.ensemble.pairs.sampler import PairSampler
+from myograph.ensemble.pairs.sampler import PairSampler, random_sensors
 from myograph.errors import InputError
 from myograph.learning.gen.config import NetworkConfig, Processor
 from myograph.learning.gen.learner import GenLearner, reading
@@ -93,6 +93,14 @@ def test_every_kind_is_rebuilt_from_its_configuration_and_weights(kind, briefly_
     rebuilt = answers(type(predictor)("again", "gen", again, predictor.signature, config), batch)
     for name, values in answers(predictor, batch).items():
         np.testing.assert_array_equal(rebuilt[name], values)
+
+
+@pytest.mark.parametrize(("sensors", "least"), [(3, 3), (9, 4)])
+def test_an_affine_skip_needs_the_points_that_decide_it_or_all_of_fewer(sampler, strict, sensors, least):
+    own = PairSampler(sampler.cases, random_sensors(sampler.cases.nodes, sensors))
+    trained = GenLearner(NetworkConfig(skip="affine"), FEW).fit(own, strict)
+    assert trained.signature.least_sensors == least
+    assert trained.predict(own.batch(strict.test[:2]).question).values["position"].shape[0] == 2
 
 
 def test_the_same_seed_gives_the_same_weights_and_another_seed_others(sampler, strict):

@@ -178,6 +178,14 @@ def test_altered_numbers_beside_the_tensors_are_found(field, tmp_path):
         train(*field(), folder=tmp_path)
 
 
+def test_a_checkpoint_of_another_version_is_named_as_such(field, tmp_path):
+    train(*field(), folder=tmp_path)
+    data = (tmp_path / FILE).read_bytes()
+    (tmp_path / FILE).write_bytes(data.replace(b'schema\\": 2', b'schema\\": 1'))
+    with pytest.raises(InputError, match="expected schema 2, got 1"):
+        train(*field(), folder=tmp_path)
+
+
 def test_the_remains_of_a_checkpoint_that_was_being_written_are_swept_away(field, tmp_path):
     (tmp_path / f".{FILE}-abc").write_bytes(b"half")
     train(*field(), folder=tmp_path)

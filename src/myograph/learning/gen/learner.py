@@ -140,9 +140,14 @@ def _signature(module: MuscleGen, trained: Signature) -> Signature:
         convention=trained.convention,
         sensors=trained.sensors,
         any_sensors=mean,
-        least_sensors=0 if either and mean else LEAST_AFFINE if module.config.skip == "affine" else 1,
+        least_sensors=0 if either and mean else _least(module, len(trained.sensors)),
         unknown_activation=either,
     )
+
+
+def _least(module: MuscleGen, trained: int) -> int:
+    """Sensors that it needs: those that decide the affine map, where that is in it, or all of fewer."""
+    return min(LEAST_AFFINE, trained) if module.config.skip == "affine" else 1
 
 
 def _check_sampler(module: MuscleGen, sampler: PairSampler) -> None:

@@ -138,6 +138,8 @@ def _read(path: Path) -> tuple[dict[str, Any], dict[str, Tensor]]:
         with safe_open(path, framework="pt") as file:
             state, names = json.loads(file.metadata()["state"]), file.keys()
             tensors = {name: file.get_tensor(name) for name in names}
+        if state["schema"] != SCHEMA:
+            raise ValueError(f"expected schema {SCHEMA}, got {state['schema']}: it is of another version")
         if state.pop("sha256") != _sha256(state, tensors):
             raise ValueError("altered bytes")
     except (OSError, SafetensorError, KeyError, TypeError, ValueError) as problem:
