@@ -1,6 +1,7 @@
 """Neural modes on any store: what answers are made from, how sensors are used; every protocol.
 
-    python benchmarks/modes.py STORE [--muscle biceps] [--seeds 3] [--steps 100] [--most 2000] [--json]
+    python benchmarks/modes.py STORE [--muscle biceps] [--seeds 3] [--steps 100] [--most 2000]
+                                [--coordinate mode] [--json]
 
 A seed says which factorial cases are held out, and the networks' first weights. Errors of positions are distances of
 nodes [mm], those of von Mises stress mean absolute errors over the mean stress [%]. Intervals are calibrated on 15 % of
@@ -52,6 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--steps", type=int, default=100, help="of each network's fit")
     parser.add_argument("--most", type=int, default=2000, help="test pairs at most, drawn at random")
     parser.add_argument("--protocols", nargs="+", default=PROTOCOLS)
+    parser.add_argument("--coordinate", choices=("angle", "mode"), default="angle")
     parser.add_argument("--json", action="store_true")
     asked = parser.parse_args(arguments)
     torch.set_num_threads(1)
@@ -74,7 +76,7 @@ def _measured(sampler: PairSampler, split: Split, asked: argparse.Namespace, see
     started = time.process_time()
     rest, held_out = hold_out(sampler.cases, split, CalibratedLearner.share, seed)
     rest = split if len(held_out) < LEAST_CALIBRATION else rest
-    config = ModesConfig(reads="both", steps=asked.steps, seed=seed)
+    config = ModesConfig(reads="both", coordinate=asked.coordinate, steps=asked.steps, seed=seed)
     fitted = ModesLearner(config).fit(sampler, rest)
     seconds = time.process_time() - started
     chosen = np.random.default_rng(seed).permutation(len(split.test))[: asked.most]

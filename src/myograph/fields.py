@@ -39,7 +39,7 @@ _ALL = (
 FIELDS: dict[str, Field] = {field.name: field for field in _ALL}
 
 
-def components_of(name: str) -> tuple[int, ...]:
+def value_shape(name: str) -> tuple[int, ...]:
     """What stands behind (cases, nodes) in the shape of a known field: nothing, or its number of components."""
     components = FIELDS[name].components
     return (len(components),) if components else ()

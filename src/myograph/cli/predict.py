@@ -58,8 +58,7 @@ def predict(
         Path | None, typer.Option(help="CSV with node (or place_x_mm, place_y_mm, place_z_mm), x_mm, y_mm, z_mm.")
     ] = None,
     sensor_noise: Annotated[
-        float,
-        typer.Option(help="Standard deviation of a measured coordinate [mm], for intervals and verdict."),
+        float, typer.Option(help="Standard deviation of a measured coordinate [mm], for intervals and verdict.")
     ] = 0.0,
     load_n: Annotated[float, typer.Option("--load", help="Weight in the hand [N].")] = 0.0,
     out: Annotated[Path | None, typer.Option(help="Write all nodes to this .csv, .npz or .vtkhdf file.")] = None,

@@ -7,7 +7,7 @@ from jaxtyping import Bool
 
 from myograph.ensemble.pairs.question import Answer
 from myograph.errors import InputError, NotConvergedError
-from myograph.fields import FIELDS, components_of, von_mises
+from myograph.fields import FIELDS, value_shape, von_mises
 from myograph.inference.signature import DEVIATION, RESIDUAL
 
 
@@ -60,7 +60,7 @@ def check_given(outputs: Mapping[str, np.ndarray], pairs: int, queries: int) -> 
 def _shape(name: str, pairs: int, queries: int) -> tuple[int, ...]:
     if name == RESIDUAL:
         return (pairs,)
-    return (pairs, queries) if name.endswith(DEVIATION) else (pairs, queries, *components_of(name))
+    return (pairs, queries) if name.endswith(DEVIATION) else (pairs, queries, *value_shape(name))
 
 
 def check_outputs(outputs: Iterable[str]) -> None:

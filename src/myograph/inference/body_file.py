@@ -18,7 +18,7 @@ from jaxtyping import Float, Int
 
 from myograph.ensemble.spec import Body
 from myograph.errors import InputError
-from myograph.fields import FIELDS, components_of
+from myograph.fields import FIELDS, value_shape
 from myograph.inference.arrays import check_array, read_arrays
 
 MOST_UNPACKED = 2**28
@@ -101,4 +101,4 @@ def _components(name: str, source: str) -> tuple[int, ...]:
     field = name.removeprefix(_REST)
     if not name.startswith(_REST) or field not in FIELDS:
         raise InputError(f"{source}: unknown array '{name}'")
-    return components_of(field)
+    return value_shape(field)

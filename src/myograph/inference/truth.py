@@ -17,7 +17,7 @@ from myograph.case import MUSCLES, check_muscle
 from myograph.ensemble.muscle_cases import MuscleCases, cases_in_memory
 from myograph.ensemble.spec import Body
 from myograph.errors import InputError
-from myograph.fields import FIELDS, components_of
+from myograph.fields import FIELDS, value_shape
 from myograph.files import read_bounded, write_whole
 from myograph.inference.arrays import check_array, read_arrays
 from myograph.inference.body_file import check_nodes
@@ -110,7 +110,7 @@ def _check(arrays: dict[str, np.ndarray], fields: dict[str, np.ndarray], source:
         **dict.fromkeys(("hand_load", "elbow_angle"), ((cases,), "f")),
         "skin": ((None, 4), "i"),
         "cells": ((None, None), "i"),
-        **{_FIELD + name: ((cases, nodes, *components_of(name)), "f") for name in fields},
+        **{_FIELD + name: ((cases, nodes, *value_shape(name)), "f") for name in fields},
         **({"seconds": ((), "f")} if "seconds" in arrays else {}),
     }
     for name, (shape, kind) in shapes.items():

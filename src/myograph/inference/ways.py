@@ -62,10 +62,7 @@ def scales_of(
     says deviations, which know how many sensors there are and where; else it has none.
     """
     found = _by_way(question, signature, whole, alone)
-    if usual_sensors(question, signature):
-        return found
-    known = [name for name in found if name + DEVIATION in signature.outputs]
-    return {name: np.maximum(found[name], NORMAL_90) for name in known}
+    return found if usual_sensors(question, signature) else _normal_at_least(found, signature)
 
 
 def with_noise(scales: Mapping[str, np.ndarray], signature: Signature, sensor_noise: float) -> dict[str, np.ndarray]:
@@ -79,8 +76,13 @@ def with_noise(scales: Mapping[str, np.ndarray], signature: Signature, sensor_no
     if signature.sensor_noise is None:
         return {}
     times = max(1.0, sensor_noise / signature.sensor_noise)
+    return {name: times * scale for name, scale in _normal_at_least(scales, signature).items()}
+
+
+def _normal_at_least(scales: Mapping[str, np.ndarray], signature: Signature) -> dict[str, np.ndarray]:
+    """Of the fields that have deviations."""
     known = [name for name in scales if name + DEVIATION in signature.outputs]
-    return {name: times * np.maximum(scales[name], NORMAL_90) for name in known}
+    return {name: np.maximum(scales[name], NORMAL_90) for name in known}
 
 
 def usual_sensors(question: Question, signature: Signature) -> bool:

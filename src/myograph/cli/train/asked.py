@@ -18,8 +18,6 @@ from myograph.files import write_whole
 
 RECORD, TRAINING = "train.json", "training"
 """In the folder of a training: what is trained there, and the folder of its steps."""
-
-
 JUDGED = {"position", "von_mises", "cauchy_stress"}
 """Fields whose errors are told."""
 
